@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/fresnel.h against optics/fresnel.h in double precision, and nested media (kernels/tracing/media.h).
+// kernels/scatter/fresnel.h against optics/fresnel.h in double precision, and nested media (kernels/tracing/media.h).
 #include "check/check.h"
 #include "check/device_arrays.h"
 #include "optics/fresnel.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/materials/rough.h: facets are met as often as a direction sees them.
+// kernels/scatter/microfacet.h: microfacets are met as often as a direction sees them.
 #include "check/check.h"
 #include "check/device_arrays.h"
 
@@ -46,7 +46,7 @@ double z_of_facets(const compute::Context& context, double cos_view, double alph
   const compute::Buffer<float4> out(context, "out", samples);
   const float4 view{static_cast<float>(std::sqrt(1 - cos_view * cos_view)), 0, static_cast<float>(cos_view),
                     static_cast<float>(alpha)};
-  run_kernel(context, "visible_facets", samples,
+  run_kernel(context, "visible_microfacets", samples,
              {{"view", compute::Buffer(context, "view", std::vector{view})},
               {"seed", shared::uint2{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}},
               {"out", out}});

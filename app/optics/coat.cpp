@@ -10,7 +10,7 @@
 namespace nephroid::optics {
 namespace {
 
-/// The mean of 1 - R over the facets that a direction sees, drawn as in kernels/materials/rough.h.
+/// The mean of 1 - R over the microfacets that a direction sees, drawn as in kernels/scatter/microfacet.h.
 double passing_part(double cos_view, double n, double alpha) {
   if (alpha == 0) return 1 - fresnel_reflectance(cos_view, 1, n);
   constexpr int heights = 128, azimuths = 16;

@@ -11,7 +11,7 @@ inline constexpr std::size_t conductor_term_count = 3;
 
 /// -ln R(angle, wavelength) is nearly the sum over terms j of coefficients[j][wavelength] times -ln R_j(angle), with
 /// R_j the exact reflectance at wavelengths[j]. So a path that stands for many wavelengths carries three numbers a
-/// metal (kernels/materials/conductor.h).
+/// metal (kernels/scatter/conductor.h).
 struct ConductorTerms {
   std::array<std::size_t, conductor_term_count> wavelengths{}; ///< indices 0..400
   std::array<Spectrum, conductor_term_count> coefficients{};

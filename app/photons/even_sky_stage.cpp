@@ -23,11 +23,7 @@ public:
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
     world_.run(kernel_, count, 64,
-               {{"targets", world_.buffers.targets},
-                {"light_index", light_},
-                {"cluster_cdf", world_.buffers.cluster_cdf},
-                {"film_scale", world_.on_device(world_.tables.direct_scale)}},
-               more);
+               {{"light_index", light_}, {"film_scale", world_.on_device(world_.tables.direct_scale)}}, more);
   }
 
   int light_; ///< index of the environment in the table of lights

@@ -169,8 +169,7 @@ private:
     return slices_.advance(world_.context.communicator(), tables_.photons_per_pass,
                            [&](const tracing::PhotonSlice& slice) {
                              world_.send(kernel_, slice, pass,
-                                         {{"targets", world_.buffers.targets},
-                                          {"emitters", emitters_},
+                                         {{"emitters", emitters_},
                                           {"emitter_count", static_cast<int>(tables_.emitters.size())},
                                           {"spectrum_cdf", spectrum_cdf_},
                                           {"film", film_},

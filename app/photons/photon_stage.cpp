@@ -101,8 +101,7 @@ private:
         [&](const tracing::PhotonSlice& slice) {
           world_.send(
               kernel_, slice, batch,
-              {{"targets", world_.buffers.targets},
-               {"emitters", world_.emitters},
+              {{"emitters", world_.emitters},
                {"film", film_},
                {"energy", splats_ ? world_.energy : own_energy_},
                {"moments", moments_},

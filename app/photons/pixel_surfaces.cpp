@@ -44,7 +44,7 @@ public:
 
   void reflect(const SurfaceHit& hit) { bend(hit, std::nullopt); }
 
-  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False
+  /// Passes the surface of glass, or is totally reflected there (kernels/scatter/dielectric.h). False
   /// where both sides have one index of refraction, so that the surface is invisible.
   bool cross(const SurfaceHit& hit) {
     std::vector<int> beyond = inside_;

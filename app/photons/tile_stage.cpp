@@ -141,9 +141,7 @@ private:
 
   void send(std::uint32_t first, std::uint32_t count) {
     world_.run_photons(kernel_, count,
-                       {{"targets", world_.buffers.targets},
-                        {"lattices", on_device_},
-                        {"reflected_before", world_.buffers.reflected_before},
+                       {{"lattices", on_device_},
                         {"views", views_},
                         {"film", film_},
                         {"energy", energy_},

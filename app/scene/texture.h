@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture on a surface, as kernels look it up (kernels/materials/texture.h).
+// A picture on a surface, as kernels look it up (kernels/scatter/texture.h).
 #pragma once
 #include "base/files.h"
 #include "preset/preset.h"

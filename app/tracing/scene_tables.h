@@ -39,7 +39,7 @@ struct SkyTables {
   shared::float4 peak_colour{}; ///< mean_colour of that part, less by as much
 };
 
-/// Pictures on surfaces, as kernels/materials/texture.h reads them.
+/// Pictures on surfaces, as kernels/scatter/texture.h reads them.
 struct TextureTables {
   TEXTURE_TABLES(TABLE_VECTOR)
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What kernels know of wavelengths: indices of refraction, losses, and the light of clusters of wavelengths.
 #pragma once
-#include "kernels/tracing/scene_table_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "scene/scene.h"
 
 #include <vector>
@@ -36,7 +36,7 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
                                         std::vector<shared::DeviceMaterial>& materials);
 
 /// The parameter s along which spectral differentials stretch a splat. It depends on wavelength alone
-/// (kernels/tracing/differential.h has the derivatives, kernels/photons/stretch.h the splats).
+/// (kernels/transport/differential.h has the derivatives, kernels/photons/stretch.h the splats).
 ///
 /// Where all glass that disperses follows one curve, s is its index of refraction n. A path's place is a much
 /// straighter function of n than of the wavelength, and wavelengths that share an n share a place, however far apart

@@ -1,11 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/world.h"
 
+#include <span>
+#include <utility>
+
 namespace nephroid::tracing {
 namespace {
 
-#define ADD_BYTES(type, name, words) bytes += bytes_of(from.name);
-#define UPLOAD(type, name, words) buffers.name = compute::Buffer(context, words, from.name);
+/// The bytes that a table takes in its block.
+template <class T>
+std::uint64_t block_bytes(const std::vector<T>& table) {
+  return (bytes_of(table) + TABLE_STEP - 1) / TABLE_STEP * TABLE_STEP;
+}
+
+/// Tables that become one block. They must live until it is uploaded.
+class TableBlock {
+public:
+  /// Returns where the table begins, in steps.
+  template <class T>
+  std::uint32_t add(const std::vector<T>& table) {
+    const std::uint64_t begin = bytes_;
+    parts_.push_back({begin, {reinterpret_cast<const std::uint8_t*>(table.data()), bytes_of(table)}});
+    bytes_ += block_bytes(table);
+    return static_cast<std::uint32_t>(begin / TABLE_STEP);
+  }
+
+  compute::Buffer<std::uint8_t> upload(const compute::Context& context, const char* name) const {
+    compute::Buffer<std::uint8_t> block(context, name, bytes_);
+    for (const auto& [begin, bytes] : parts_)
+      if (!bytes.empty()) block.write(bytes, begin);
+    return block;
+  }
+
+private:
+  std::vector<std::pair<std::uint64_t, std::span<const std::uint8_t>>> parts_;
+  std::uint64_t bytes_ = 0;
+};
+
+#define ADD_BYTES(type, name, words) bytes += block_bytes(from.name);
+#define ADD_TO_BLOCK(type, name, words) buffers.first.name = block.add(from.name);
 
 std::uint64_t object_bytes(const SceneTables& from) {
   std::uint64_t bytes = 0;
@@ -49,14 +82,16 @@ std::uint64_t lamp_bytes(const SceneTables& tables) {
   return bytes;
 }
 
-std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
+std::uint64_t tree_bytes(const scene::Bvh& bvh) { return block_bytes(bvh.nodes) + block_bytes(bvh.blocks); }
 
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
                                                  const SceneTables& tables) {
-  std::vector<plan::PlannedBuffer> rows{{"tree", tree_bytes(bvh)},
-                                        {"triangles", scene.object_of_primitive.size() * sizeof(DevicePrimitive)},
-                                        {"objects and lights", object_bytes(tables)},
-                                        {"wavelength tables", wavelength_bytes(tables)}};
+  std::vector<plan::PlannedBuffer> rows{
+      {"tree", tree_bytes(bvh)},
+      {"triangles",
+       (scene.object_of_primitive.size() * sizeof(DevicePrimitive) + TABLE_STEP - 1) / TABLE_STEP * TABLE_STEP},
+      {"objects and lights", object_bytes(tables)},
+      {"wavelength tables", wavelength_bytes(tables)}};
   if (tables.sky) rows.push_back({"environment as a light", sky_bytes(tables)});
   if (tables.textures) rows.push_back({"textures", texture_bytes(tables)});
   if (tables.lamps) rows.push_back({"lamps", lamp_bytes(tables)});
@@ -69,7 +104,9 @@ void upload_surfaces(const compute::Context& context, const scene::Scene& scene,
     const std::vector<float>&nodes, &blocks;
     std::vector<DevicePrimitive> primitives;
   } from{bvh.nodes, bvh.blocks, device_primitives(scene)};
-  GEOMETRY_TABLES(UPLOAD)
+  TableBlock block;
+  GEOMETRY_TABLES(ADD_TO_BLOCK)
+  buffers.geometry = block.upload(context, "tree and triangles");
 }
 
 SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh,
@@ -79,18 +116,22 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   static const SkyTables no_sky;
   static const TextureTables no_textures;
   static const LampTables no_lamps;
-  const auto upload_objects = [&](const SceneTables& from) { OBJECT_TABLES(UPLOAD) TARGET_TABLES(UPLOAD) };
-  const auto upload_wavelengths = [&](const WavelengthTables& from) { WAVELENGTH_TABLES(UPLOAD) COLOUR_TABLES(UPLOAD) };
-  const auto upload_stretch = [&](const StretchTables& from) { STRETCH_TABLES(UPLOAD) };
-  const auto upload_sky = [&](const SkyTables& from) { SKY_TABLES(UPLOAD) };
-  upload_objects(tables);
-  upload_wavelengths(tables.wavelengths);
-  upload_stretch(tables.stretch);
-  upload_sky(tables.sky ? *tables.sky : no_sky);
-  const auto upload_textures = [&](const TextureTables& from) { TEXTURE_TABLES(UPLOAD) };
-  upload_textures(tables.textures ? *tables.textures : no_textures);
-  const auto upload_lamps = [&](const LampTables& from) { LAMP_TABLES(UPLOAD) };
-  upload_lamps(tables.lamps ? *tables.lamps : no_lamps);
+  TableBlock block;
+  const auto add_objects = [&](const SceneTables& from) { OBJECT_TABLES(ADD_TO_BLOCK) TARGET_TABLES(ADD_TO_BLOCK) };
+  const auto add_wavelengths = [&](const WavelengthTables& from) {
+    WAVELENGTH_TABLES(ADD_TO_BLOCK) COLOUR_TABLES(ADD_TO_BLOCK)
+  };
+  const auto add_stretch = [&](const StretchTables& from) { STRETCH_TABLES(ADD_TO_BLOCK) };
+  const auto add_sky = [&](const SkyTables& from) { SKY_TABLES(ADD_TO_BLOCK) };
+  const auto add_textures = [&](const TextureTables& from) { TEXTURE_TABLES(ADD_TO_BLOCK) };
+  const auto add_lamps = [&](const LampTables& from) { LAMP_TABLES(ADD_TO_BLOCK) };
+  add_objects(tables);
+  add_wavelengths(tables.wavelengths);
+  add_stretch(tables.stretch);
+  add_sky(tables.sky ? *tables.sky : no_sky);
+  add_textures(tables.textures ? *tables.textures : no_textures);
+  add_lamps(tables.lamps ? *tables.lamps : no_lamps);
+  buffers.tables = block.upload(context, "the scene's tables");
   return buffers;
 }
 

@@ -15,11 +15,10 @@
 
 namespace nephroid::tracing {
 
-/// The tables of kernels/tracing/scene_table_types.h.
+/// The two blocks of tables of kernels/tracing/scene_table_types.h, and where each table begins in its block.
 struct SceneBuffers {
-#define TABLE_BUFFER(type, name, words) compute::Buffer<type> name;
-  SCENE_TABLES(TABLE_BUFFER)
-#undef TABLE_BUFFER
+  compute::Buffer<std::uint8_t> geometry, tables;
+  shared::DeviceTables first{};
 };
 
 /// Bytes of a scene's tree, of its environment as a light, and of its textures.
@@ -53,9 +52,9 @@ struct World {
   /// Queues a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`.
   void queue(compute::Kernel& kernel, std::size_t global, std::size_t local,
              std::initializer_list<compute::Argument> own, std::initializer_list<compute::Argument> more = {}) {
-#define TABLE_ARGUMENT(type, name, words) {#name, buffers.name},
-    std::vector<compute::Argument> arguments{WORLD_TABLES(TABLE_ARGUMENT){"scene", scene}};
-#undef TABLE_ARGUMENT
+    scene.first = buffers.first;
+    std::vector<compute::Argument> arguments{
+        {"geometry", buffers.geometry}, {"tables", buffers.tables}, {"scene", scene}};
     arguments.insert(arguments.end(), more);
     kernel.run(global, local, arguments, own);
   }

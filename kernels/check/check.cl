@@ -3,11 +3,7 @@
 // them against the host. Only built_ins computes something else: it runs the device's own functions.
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/random.h"
-#include "kernels/materials/coating.h"
-#include "kernels/materials/conductor.h"
-#include "kernels/materials/rough.h"
-#include "kernels/tracing/media.h"
-#include "kernels/tracing/attenuation.h"
+#include "kernels/scatter/scatter.h"
 #include "kernels/lights/emission.h"
 #include "kernels/tracing/work_item.h"
 
@@ -79,23 +75,23 @@ kernel void conductors(global const float4* in, global float4* out, uint count) 
   if (i < count) out[i] = (float4)(conductor_reflectance(in[i].x, in[i].y, in[i].z), 0.0f, 0.0f, 0.0f);
 }
 
-// in: cos_i, n before and beyond, then n of a layer; its thickness in wavelengths. out: x: the interface's reflectance.
+// in: cos_i, n before and beyond, then n of a thin film; its thickness in wavelengths. out: x: the interface's reflectance.
 kernel void coatings(global const float4* in, global float4* out, uint count) {
   const uint i = work_item();
   if (i >= count) return;
   const float4 at = in[2 * i];
-  const Layer layer = {at.w, in[2 * i + 1].x};
+  const ThinFilm film = {at.w, in[2 * i + 1].x};
   const float cos_t = refracted_cosine(at.x, at.y / at.z);
-  const float r = cos_t < 0.0f ? 1.0f : coated_reflectance(at.x, cos_t, at.y, at.z, layer);
+  const float r = cos_t < 0.0f ? 1.0f : coated_reflectance(at.x, cos_t, at.y, at.z, film);
   out[i] = (float4)(r, cos_t, 0.0f, 0.0f);
 }
 
-// view: the direction that the facets about z are seen from; w: alpha.
-kernel void visible_facets(global const float4* view, uint2 seed, global float4* out, uint count) {
+// view: the direction that the microfacets about z are seen from; w: alpha.
+kernel void visible_microfacets(global const float4* view, uint2 seed, global float4* out, uint count) {
   const uint i = work_item();
   const float3 up = (float3)(0.0f, 0.0f, 1.0f);
   if (i < count)
-    out[i] = (float4)(visible_facet(view->xyz, up, view->w, facet_numbers(seed, 0u, i, 0u, STREAM_PHOTONS)), 0.0f);
+    out[i] = (float4)(visible_microfacet(view->xyz, up, view->w, microfacet_numbers(seed, 0u, i, 0u, STREAM_PHOTONS)), 0.0f);
 }
 
 // in: a direction that meets the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one, its cosine.

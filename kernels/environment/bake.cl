@@ -6,7 +6,7 @@
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/work_item.h"
-#include "kernels/tracing/world.h"
+#include "kernels/transport/scatter_path.h"
 
 #ifndef NEPHROID_PHOTONS_PER_ITEM
 #define NEPHROID_PHOTONS_PER_ITEM 1
@@ -82,15 +82,55 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
   return carried;
 }
 
+typedef struct {
+  const Spheres* spheres;
+  __global const float4* light_rgb;
+  Band band;
+  float power; // in quanta
+  uint2 seed;
+  uint number, photon;
+  bool met; // the object
+  SET_ASIDE float4 u;
+} Visitor;
+
+static inline Band visitor_band(const Visitor* photon) { return photon->band; }
+
+static inline WalkNumbers visitor_numbers(Visitor* photon, const Interaction* at, int n) {
+  if ((n & 3) == 0) photon->u = random4(photon->seed, photon->number, photon->photon, (uint)n / 4u, STREAM_BAKE);
+  const float4 u = photon->u;
+  photon->u = u.yzwx;
+  const WalkNumbers numbers = {
+      u.x, microfacet_numbers(photon->seed, photon->number, photon->photon, (uint)n, STREAM_BAKE)};
+  return numbers;
+}
+
+static inline uint visitor_lobes(const Visitor* photon, const Interaction* at, int n) {
+  return LOBE_REFLECTION | LOBE_TRANSMISSION;
+}
+
+// A photon that meets nothing more is outside, even of an open mesh that it left by the hole.
+static inline void visit_segment(const World* world, Visitor* photon, const Path* path, const Hit* hit) {
+  const bool leaves = hit->primitive == NEPHROID_NO_PRIMITIVE;
+  if (photon->met && (leaves || is_in_air(&path->media))) {
+    const Carried carried =
+        carried_by(photon->light_rgb, &photon->band, photon->power * left_of(world, path, &photon->band));
+    mark_spheres(photon->spheres, path->origin, path->direction, leaves ? INFINITY : hit->t, &carried);
+  }
+  photon->met = photon->met || !leaves;
+}
+
+#define WALK_SEGMENTS
+#define WALK_LOBES
+#include "kernels/transport/walk.h"
+
 // Sends photons first .. first + count - 1 of a direction, whose number keys its random numbers. scale: quanta a watt.
-__kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb,
-                   __global const float* radii, volatile __global long* film,
+__kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global const float* radii, volatile __global long* film,
                    volatile __global long* energy, // [OUTCOME_COUNT]
                    int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count,
                    float scale) {
   const World world = WORLD;
   const Spheres spheres = {film, radii, sphere_count, side};
-  DeviceLight light = lights[0];
+  DeviceLight light = world.lights[0];
   light.direction = direction;
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
@@ -99,37 +139,17 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     const uint photon = first + item;
     const float4 start = sobol4(seed, (uint3)(number, 0u, 0u), 0u, photon);
     const Emission emission =
-        emit_directional(&light, targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
+        emit_directional(&light, world.targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
     const float power = emission.watts * scale;
     const Band band = choose_band(&world, 0, 0, start.w);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
                  light.inside,    no_losses(),        emission.behind};
-    bool met = false;
-    int outcome = OUTCOME_LOST;
-    SET_ASIDE float4 choices = (float4)(0.0f);
-    for (int surface_number = 0; surface_number <= scene.max_surfaces; ++surface_number) {
-      const Hit hit = next_hit(&world, &path);
-      const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
-      // A photon that meets nothing more is outside, even of an open mesh that it left by the hole.
-      if (met && (leaves || is_in_air(&path.media))) {
-        const Carried carried = carried_by(light_rgb, &band, power * left_of(&world, &path, &band));
-        mark_spheres(&spheres, path.origin, path.direction, leaves ? INFINITY : hit.t, &carried);
-      }
-      if (leaves) {
-        outcome = met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-        break;
-      }
-      if (surface_number == scene.max_surfaces) break;
-      met = true;
-      const Surface surface = surface_at(&world.geometry, hit);
-      const DeviceMaterial material = material_at(&world, &surface, hit.primitive);
-      lose_in_medium(&world, &path, hit.t);
-      if ((surface_number & 3) == 0) choices = random4(seed, number, photon, (uint)surface_number / 4u, STREAM_BAKE);
-      const float2 facet = facet_numbers(seed, number, photon, (uint)surface_number, STREAM_BAKE);
-      float n_ratio;
-      if (!bend_path(&world, &path, hit.primitive, &surface, &material, &band, choices.x, facet, &n_ratio)) break;
-      choices = choices.yzwx;
-    }
+    Visitor visitor = {&spheres, light_rgb, band, power, seed, number, photon, false, (float4)(0.0f)};
+    Hit hit;
+    Interaction at;
+    int surfaces;
+    const int how = walk(&world, &visitor, &path, &hit, false, 0, &at, &surfaces);
+    const int outcome = how == WALK_LOST ? OUTCOME_LOST : visitor.met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
     const long quanta = convert_long_rte(power), left = convert_long_rte(power * left_of(&world, &path, &band));
     add_outcome(outcomes, OUTCOME_EMITTED, quanta);
     add_outcome(outcomes, outcome, left);

@@ -4,10 +4,9 @@
 #define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
-#include "kernels/tracing/camera.h"
-#include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/piece.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_walk.h"
 
 static inline DeviceEnd nowhere(void) {
   DeviceEnd end;
@@ -15,43 +14,38 @@ static inline DeviceEnd nowhere(void) {
   return end;
 }
 
-// Traces a path to its end. first: its next hit, where known: then nothing has bent it, and it ends below a coat.
-// weight: linear sRGB. likelier: as in trace_to_diffuse, and it sees a point of the sky. place, edges: as in piece_of.
-static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
-                               float3 weight, uint2 seed, uint sample, uint pixel, bool likelier, float2 place,
-                               float2 edges) {
+// Traces a path, which has met `hit`, to its end. straight: to what it has met, below a coat. weight: linear sRGB.
+// point: it sees a point of the sky. place, edges: as in piece_of.
+static inline DeviceEnd end_of(const World* world, Visitor* eye, Path path, Hit hit, bool straight, float3 weight,
+                               bool point, float2 place, float2 edges) {
   DeviceEnd end = nowhere();
-  Surface surface;
-  Hit hit = *first;
-  float scale = 1.0f;
-  if (known && hit.primitive != NEPHROID_NO_PRIMITIVE && shows_coat(world, &hit)) {
-    surface = surface_at(&world->geometry, hit);
-    lose_in_medium(world, &path, hit.t);
-    scale = part_through_coat(world, &surface, path.direction);
-  } else
-    scale = trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
-  if (scale == 0.0f) return end;
-  float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
+  Interaction at;
+  if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
+    int last;
+    if (follow_eye_path(world, eye, &path, &hit, &at, &last) == 0.0f) return end;
+  }
+  float3 throughput = eye->radiance_scale * wavelength_left(&world->tables, &path.losses, max(eye->band.wavelength, 0)) *
+                      (eye->share * weight);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
     end.throughput = (float4)(throughput, (float)END_SKY);
     end.place = (float4)(path.direction, 0.0f);
-    if (known || likelier) return end;
+    if (straight || point) return end;
     const Piece piece = piece_of(&path, place, edges);
     end.geometric = (float4)(piece.u, piece.at.x);
     end.shading = (float4)(piece.v, piece.at.y);
     return end;
   }
+  const Surface surface = at.surface;
   const float side = dot(path.direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
 #if NEPHROID_TEXTURES // in the three colours of engine 2; the photons have its spectra
   const Reflector reflector = reflector_at(world, &surface, hit.primitive);
   if (reflector.is_textured) throughput *= reflector.rgb;
 #endif
-  const DeviceMaterial material = material_of(world, surface.object);
-  if (is_plastic(&material)) throughput *= world->tables.surface_data[material.surface_first + COAT_MEAN];
+  throughput *= mean_part_to_base(world, &at.material);
   end.throughput = (float4)(throughput, (float)END_SURFACE);
   end.place = (float4)(surface.position, surface.offset);
   end.geometric = (float4)(side * surface.geometric, as_float(hit.primitive));
-  end.shading = (float4)(side * surface.shading, as_float(material.reflector));
+  end.shading = (float4)(side * surface.shading, as_float(at.material.reflector));
   return end;
 }
 
@@ -96,35 +90,29 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   begin_on_lens(eye, pixel, jitter, seed, pass, 1u, STREAM_SEE);
   Path path = path_from_eye(eye, primary_direction(eye, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
-  const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
-                    material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
-  const bool coated = bent && shows_coat(&world, &hit);
+  bool bent = false, coated = false;
+  if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
+    const DeviceMaterial met = material_of_hit(&world, &hit);
+    bent = !is_only_matt(&met);
+    coated = has_coat(&met);
+  }
   SET_ASIDE float3 outwards = path.direction;
   SET_ASIDE float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) {
     // All colours are reflected the same way and nearly as much, so one of them is followed. It has the last end.
     const int channel = i < ENDS_OF_PIXEL - 1 ? i : (ENDS_OF_PIXEL - 1) / 2;
-    Band band = whole_cluster(0);
-    Path way = path_from_eye(eye, outwards);
-    float3 weight = (float3)(1.0f);
-    bool goes_on = i == 0;
-    const bool straight = !bent || (coated && i == 0); // to what is seen first
-    if (!straight) {
-      band = band_of_channel(channel_cdf, channel, u);
-      const bool reflected = i == ENDS_OF_PIXEL - 1;
-      const float2 facet =
-          facet_numbers(seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, BEFORE_THE_PATH, STREAM_SEE);
-      float share;
-      Bend bend;
-      goes_on = first_bend(&world, &way, &hit, &band, reflected, facet, &share, &bend) &&
-                !(reflected && leaves_one_way(&bend));
-      weight = share *
-               (reflected || ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
-    }
+    const bool straight = !bent || (coated && i == 0), reflected = i == ENDS_OF_PIXEL - 1;
+    const Band band = straight ? whole_cluster(0) : band_of_channel(channel_cdf, channel, u);
+    const float3 weight = straight || reflected || ENDS_OF_PIXEL == 2
+                              ? (float3)(1.0f)
+                              : (float3)(channel == 0, channel == 1, channel == 2);
+    Visitor visitor = eye_visitor(&band, seed, ENDS_OF_PIXEL * pass + (uint)i, 0u, pixel, STREAM_SEE);
+    visitor.likelier = coarse;
+    visitor.drops_one_way = reflected;
+    if (bent) visitor.first_lobes = straight ? LOBE_DIFFUSE : reflected ? LOBE_REFLECTION : LOBE_TRANSMISSION;
     DeviceEnd end = nowhere();
-    if (goes_on)
-      end = end_of(&world, way, &hit, straight, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse,
-                   jitter, edges);
+    if (!straight || i == 0)
+      end = end_of(&world, &visitor, path_from_eye(eye, outwards), hit, straight, weight, coarse, jitter, edges);
     ends[ENDS_OF_PIXEL * item + i] = end;
     want(&end, middle, size, states);
   }

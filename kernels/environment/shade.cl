@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light that the pixels' paths bring from their ends (see.cl): the environment itself; on a surface direct light of
 // the environment and lamps, and caustics from the cube of receivers.
-#undef NEPHROID_PLASTICS
-#define NEPHROID_PLASTICS 0 // see.cl has let its light pass coats already
+#undef NEPHROID_MATERIALS
+#define NEPHROID_MATERIALS (1 << MATERIAL_DIFFUSE) // see.cl has let its light pass coats already
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/eye_path.h"

@@ -4,7 +4,7 @@
 // light that the object bends belongs to its caustic.
 #include "kernels/environment/cube.h"
 #include "kernels/tracing/work_item.h"
-#include "kernels/tracing/world.h"
+#include "kernels/tracing/path.h"
 
 // The offset of shadow rays from a receiver, as a part of its distance: beyond the rounding of both.
 #define OFF_RECEIVER 1e-4f

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Visibility of the environment's directions from points of the object (Algorithm 3.4 of the thesis).
 #include "kernels/tracing/work_item.h"
-#include "kernels/tracing/world.h"
+#include "kernels/tracing/path.h"
 
 // directions: unit, in the map before it is turned. points: their number is a power of 2. Neighbouring cells of a light
 // are tested from points that are far apart: an odd step near the golden ratio of 1024 meets each point once. turned_x,

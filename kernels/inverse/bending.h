@@ -3,7 +3,7 @@
 #ifndef NEPHROID_BENDING_H
 #define NEPHROID_BENDING_H
 
-#include "kernels/tracing/fresnel.h"
+#include "kernels/scatter/fresnel.h"
 
 // The part of the largest slope that is used: inverse::usable_part.
 #define USABLE_PART 0.95f

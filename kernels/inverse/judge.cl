@@ -3,7 +3,7 @@
 #include "kernels/inverse/facet_types.h"
 #include "kernels/tracing/bvh.h"
 #include "kernels/tracing/film.h"
-#include "kernels/tracing/fresnel.h"
+#include "kernels/scatter/fresnel.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/work_item.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each light's unbent light at a surface that a path from the eye meets.
 #include "kernels/lights/emission.h"
+#include "kernels/lights/spectrum.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
-#include "kernels/tracing/world.h"
+#include "kernels/scatter/scatter.h"
 
 // The irradiance in W m^-2 that a light's whole spectrum gives a surface point, without shadows, and the way to the
 // light. It is I cos(theta) / d^2, with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a
@@ -80,7 +81,7 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
   if (is_hidden(world, surface, from, &arrival, triangle)) return 0.0f;
-  return arrival.irradiance * part_through_coat(world, surface, arrival.direction) *
+  return arrival.irradiance * part_to_base(world, surface, arrival.direction) *
          part_at_normal(surface, arrival.direction);
 }
 
@@ -103,7 +104,7 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
       continue;
     SET_ASIDE float3 rgb = place.rgb;
     SET_ASIDE float weight = place.density * cosine / (place.peak_density + cosine / PI_F) *
-                             part_through_coat(world, surface, place.direction) *
+                             part_to_base(world, surface, place.direction) *
                              part_at_normal(surface, place.direction);
     if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
   }

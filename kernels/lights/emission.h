@@ -2,7 +2,7 @@
 // Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
 // in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
 // inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
-#include "kernels/tracing/differential.h"
+#include "kernels/tracing/surface.h"
 #include "kernels/tracing/frame.h"
 #include "kernels/lights/light.h"
 #include "kernels/tracing/registers.h"

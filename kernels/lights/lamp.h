@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lamps that have a table: a mesh, a rectangle with a picture, a point with photometry.
+#include "kernels/lights/light.h"
+#include "kernels/tracing/world.h"
 
 // 1: some rectangle has a picture.
 #ifndef NEPHROID_LIGHT_PICTURES

@@ -12,7 +12,7 @@
 // of the peaks alone where even_sky.cl brings the rest.
 #include "kernels/lights/light.h"
 #include "kernels/tracing/random.h"
-#include "kernels/tracing/scene_table_types.h"
+#include "kernels/tracing/shared_types.h"
 
 typedef struct {
   SKY_TABLES(TABLE_MEMBER)

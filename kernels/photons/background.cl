@@ -4,9 +4,8 @@
 #include "kernels/lights/light.h"
 // Where the environment is no light, its peaks are not known.
 #define NEPHROID_PLACE_DIFFERENTIALS (NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1)
-#include "kernels/tracing/camera.h"
-#include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/piece.h"
+#include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"
 
 // 1: no glass disperses light, is coated or has a texture.
@@ -33,16 +32,16 @@ static inline float3 shown_after(const World* world, const Background* backgroun
 // reflects them alike. Of glass the share of bare glass at the mean index counts for all of them, and what this
 // wavelength's differs from it for itself: little where there is no coating.
 static inline float3 reflected_after(const World* world, const Background* background, float3 rgb, const Band* band,
-                                     float scale, const Bend* bend, bool by_coat) {
+                                     float scale, const ScatterSample* first, bool by_coat) {
   __global const float* n_of = world->tables.index_of_cluster;
-  const float n_i = bend->near_material < 0 ? 1.0f : n_of[bend->near_material],
-              n_t = bend->far_material < 0 ? 1.0f : n_of[bend->far_material];
-  const float cos_i = dot(bend->direction, bend->normal), cos_t = refracted_cosine(cos_i, n_i / n_t);
-  const float share = by_coat        ? bend->reflectance
+  const float n_i = first->near_material < 0 ? 1.0f : n_of[first->near_material],
+              n_t = first->far_material < 0 ? 1.0f : n_of[first->far_material];
+  const float cos_i = dot(first->direction, first->normal), cos_t = refracted_cosine(cos_i, n_i / n_t);
+  const float share = by_coat        ? first->reflectance
                       : cos_t < 0.0f ? 1.0f
                                      : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
   return scale * share * background_xyz(background, rgb, WAVELENGTH_COUNT) +
-         scale * (bend->reflectance - share) * band->weight * background_xyz(background, rgb, band->wavelength);
+         scale * (first->reflectance - share) * band->weight * background_xyz(background, rgb, band->wavelength);
 }
 
 // The XYZ radiance of the environment that the paths of a pixel's sample see which have met `first`, one of them by
@@ -51,19 +50,17 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
                              float2 place, uint2 seed, uint frame, uint i, uint pixel) {
   const bool reflected = i == 0u;
   const uint sample = frame * PATHS_THROUGH_GLASS + i;
-  float share;
-  Bend bend;
-  const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_BACKGROUND);
-  if (!first_bend(world, &path, &first, band, reflected, facet, &share, &bend)) return (float3)(0.0f);
-  const bool one_way = leaves_one_way(&bend), by_coat = shows_coat(world, &first);
+  const bool by_coat = shows_coat(world, &first);
+  Visitor eye = eye_visitor(band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND);
+  eye.first_lobes = reflected ? LOBE_REFLECTION : LOBE_TRANSMISSION;
+  Hit hit = first;
+  Interaction at;
+  int last;
+  const float left = follow_eye_path(world, &eye, &path, &hit, &at, &last);
+  if (left == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
+  const bool one_way = leaves_one_way(&eye.first), leaves = last == 0;
   const float part = 1.0f / (one_way ? PATHS_THROUGH_GLASS : reflected ? 1.0f : PATHS_THROUGH_GLASS - 1.0f);
-  Surface surface;
-  Hit hit = next_hit(world, &path);
-  const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
-  const float radiance_scale = part * share *
-                               trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS,
-                                                pixel, STREAM_BACKGROUND, false, &surface);
-  if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
+  const float radiance_scale = part * eye.share * eye.radiance_scale;
 #if NEPHROID_PLACE_DIFFERENTIALS
   const Piece piece = piece_of(&path, place, piece_edges(frame / NEPHROID_FILM_HALVES));
   const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, sample, pixel, 0u, STREAM_PEAKS).xy);
@@ -72,7 +69,7 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
 #endif
 #if !NEPHROID_ONE_WAY
   if (leaves && reflected && !one_way && !path.losses.any)
-    return reflected_after(world, background, rgb, band, part, &bend, by_coat);
+    return reflected_after(world, background, rgb, band, part, &eye.first, by_coat);
 #endif
   return radiance_scale * shown_after(world, background, rgb, &path.losses, band);
 }
@@ -99,10 +96,12 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
 
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
+  if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
+    const DeviceMaterial met = material_of_hit(&world, &hit);
+    if (is_only_matt(&met)) return;
+  }
   if (hit.primitive == NEPHROID_NO_PRIMITIVE)
     xyz = background_xyz(&background, background_rgb(&background, direction), WAVELENGTH_COUNT);
-  else if (material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type == MATERIAL_DIFFUSE)
-    return;
   else
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
       const float place = golden_place(seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);

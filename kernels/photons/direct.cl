@@ -2,8 +2,7 @@
 // The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, which each light
 // reaches unbent. Glass and mirrors block those shadow rays: light that passes them belongs to the caustic layer.
 #define NEPHROID_HIGHLIGHTS
-#include "kernels/tracing/camera.h"
-#include "kernels/tracing/eye_path.h"
+#include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"
 
 // The XYZ radiance of a lamp's own surface.
@@ -18,7 +17,7 @@ static inline float3 emitted(const World* world, int light_index, const Path* pa
 
 // The XYZ radiance that a diffuse surface sends back along the path. shines: with its own where it is a lamp.
 IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, bool shines,
-                      Reflector reflector, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
+                      Reflector reflector, const Band* band, uint2 seed,
                       uint sample, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   const uint paths = band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS;
@@ -28,9 +27,9 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
       const Source sky = {l, rgb / PI_F};
       const int first = l * world->scene.reflector_count, next = world->scene.reflector_count;
       xyz += band->cluster < 0
-                 ? sky.rgb.x * reflected_colour_of(reflected_xyz_all, first, reflector).xyz +
-                       sky.rgb.y * reflected_colour_of(reflected_xyz_all, first + next, reflector).xyz +
-                       sky.rgb.z * reflected_colour_of(reflected_xyz_all, first + 2 * next, reflector).xyz
+                 ? sky.rgb.x * reflected_colour_of(world->reflected_xyz_all, first, reflector).xyz +
+                       sky.rgb.y * reflected_colour_of(world->reflected_xyz_all, first + next, reflector).xyz +
+                       sky.rgb.z * reflected_colour_of(world->reflected_xyz_all, first + 2 * next, reflector).xyz
                  : carried_light(world, &path->losses, sky, band, reflector).xyz;
       continue;
     }
@@ -39,7 +38,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
     const float3 reflected =
-        band->cluster < 0 ? reflected_colour_of(reflected_xyz_all, l * world->scene.reflector_count, reflector).xyz
+        band->cluster < 0 ? reflected_colour_of(world->reflected_xyz_all, l * world->scene.reflector_count, reflector).xyz
                           : carried_light(world, &path->losses, lamp, band, reflector).xyz;
     xyz += reflected * (irradiance / PI_F);
   }
@@ -48,52 +47,22 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
 
 // Follows a path that has hit `first` on through glass and mirrors. Returns the XYZ radiance of its band alone. Where
 // all its wavelengths go the same way (cluster -1), a coat that it meets first sends it to the base, else back.
-IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
-                       __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel) {
-  Surface surface;
-  Shine shine = {(float3)(0.0f), false};
-  float radiance_scale = 1.0f;
-  bool reached = false;
-#if NEPHROID_PLASTICS
-  surface = surface_at(&world->geometry, first);
-  const DeviceMaterial material = material_at(world, &surface, first.primitive);
-  if (is_plastic(&material) && is_in_air(&path.media)) {
-    reached = band->cluster < 0;
-    if (reached)
-      radiance_scale = part_through_coat(world, &surface, path.direction);
-    else {
-#if NEPHROID_ROUGH
-      if (material.alpha > 0.0f)
-        shine.xyz = highlights(world, &path, &surface, first.primitive, &material, band, seed, sample,
-                               PATHS_THROUGH_GLASS, pixel + 0x9e3779b9u);
-#endif
-      const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_CAMERA);
-      Bend bend;
-      if (!first_bend(world, &path, &first, band, true, facet, &radiance_scale, &bend)) return shine.xyz;
-      shine.by_facets = material.alpha > 0.0f;
-      first = next_hit(world, &path);
-      if (first.primitive == NEPHROID_NO_PRIMITIVE) return shine.xyz;
-    }
-  }
-#endif
-  Shine behind = {(float3)(0.0f), shine.by_facets};
-  const float share = radiance_scale;
-  if (!reached)
-    radiance_scale *=
-        reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
-                      STREAM_CAMERA, &surface, &behind);
-  const float3 xyz = shine.xyz + share * behind.xyz;
+IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, uint2 seed, uint sample, uint pixel) {
+  Visitor eye =
+      eye_visitor(band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA);
+  if (is_in_air(&path.media) && shows_coat(world, &first))
+    eye.first_lobes = band->cluster < 0 ? LOBE_DIFFUSE : LOBE_REFLECTION;
+  Interaction at;
+  const float radiance_scale = reach_base(world, &eye, &path, &first, &at);
+  const float3 xyz = eye.first_shine + eye.share * eye.shine;
   if (radiance_scale == 0.0f) return xyz;
-  const bool shines = !behind.by_facets && dot(path.direction, surface.geometric) < 0.0f;
-  const Reflector reflector = reflector_at(world, &surface, first.primitive);
-  return xyz + radiance_scale * shade(world, &path, &surface, first.primitive, shines, reflector, band,
-                                      reflected_xyz_all, seed, sample, pixel);
+  const bool shines = !eye.by_microfacets && dot(path.direction, at.surface.geometric) < 0.0f;
+  const Reflector reflector = reflector_at(world, &at.surface, at.triangle);
+  return xyz + radiance_scale * shade(world, &path, &at.surface, at.triangle, shines, reflector, band, seed, sample, pixel);
 }
 
 // samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
 __kernel void direct(WORLD_ARGUMENTS,
-                     __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
-                     __global const float* cluster_cdf, // [cluster + 1]: chances of a path through glass
                      volatile __global long* film,
                      volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                      DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
@@ -122,13 +91,13 @@ __kernel void direct(WORLD_ARGUMENTS,
     Band band = whole_cluster(-1);
     SET_ASIDE float probability = 1.0f;
     if (bent) {
-      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, number, PATHS_THROUGH_GLASS,
+      const int cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, frame, number, PATHS_THROUGH_GLASS,
                                          pixel, STREAM_CAMERA_CLUSTER);
-      probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
+      probability = (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
       band =
           choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
     }
-    xyz += follow(&world, way, first, &band, reflected_xyz_all, seed, sample, pixel) / probability;
+    xyz += follow(&world, way, first, &band, seed, sample, pixel) / probability;
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
              jitter.z);

@@ -2,9 +2,8 @@
 // The part of the layer "caustic" that is the even light of the environment (sky.h). Paths from the eye go through
 // glass and mirrors to the first diffuse surface, and on through glass and mirrors to the sky. Light that comes from
 // everywhere is found more surely from where it falls than from where it starts.
-#include "kernels/tracing/camera.h"
-#include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_walk.h"
 
 #define BOUNCES 4u // of a sample, each in a band of its own
 
@@ -24,7 +23,7 @@ static inline float3 direction_to_targets(__global const DeviceTarget* targets, 
 
 // The irradiance times Source::rgb of even light that reaches a diffuse surface through glass and mirrors, on the side
 // that `path` arrives at. Continues the path from there.
-IN_PLACE float3 even_irradiance(const World* world, const DeviceLight* light, __global const DeviceTarget* targets,
+IN_PLACE float3 even_irradiance(const World* world, const DeviceLight* light,
                            Path* path, const Surface* surface, uint triangle, const Band* band, uint2 seed, uint sample,
                            uint pixel) {
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
@@ -33,22 +32,22 @@ IN_PLACE float3 even_irradiance(const World* world, const DeviceLight* light, __
   path->behind = 0.0f;
   const float4 random = eye_numbers(seed, sample, BOUNCES, pixel, 0u, STREAM_EVEN_SKY_BOUNCE);
   float weight;
-  path->direction = direction_to_targets(targets + light->first_target, light->target_count, path->origin,
+  path->direction = direction_to_targets(world->targets + light->first_target, light->target_count, path->origin,
                                          side * surface->shading, random, &weight);
   if (!(weight > 0.0f) || !(side * dot(path->direction, surface->geometric) > 0.0f)) return (float3)(0.0f);
-  weight *= part_through_coat(world, surface, path->direction) * part_at_normal(surface, path->direction);
+  weight *= part_to_base(world, surface, path->direction) * part_at_normal(surface, path->direction);
   Hit hit = next_hit(world, path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return (float3)(0.0f); // unbent light is of the layer "direct"
-  Surface last;
-  weight *= trace_to_diffuse(world, path, &hit, true, band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY_BOUNCE, false,
-                             &last);
+  Visitor eye = eye_visitor(band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY_BOUNCE);
+  Interaction at;
+  int last;
+  weight *= follow_eye_path(world, &eye, path, &hit, &at, &last);
   if (weight == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
   return light->radiometric * weight * even_radiance(&world->sky, path->direction);
 }
 
 // samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
-__kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, int light_index,
-                       __global const float* cluster_cdf, // [cluster + 1]: chances of a path through glass
+__kernel void even_sky(WORLD_ARGUMENTS, int light_index,
                        volatile __global long* film,
                        volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                        DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
@@ -64,26 +63,26 @@ __kernel void even_sky(WORLD_ARGUMENTS, __global const DeviceTarget* targets, in
   const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_EVEN_SKY, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
-  const DeviceLight light = lights[light_index];
+  const DeviceLight light = world.lights[light_index];
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < BOUNCES; ++i) {
     const uint sample = frame * BOUNCES + i;
     const int cluster =
-        choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, BOUNCES, pixel, STREAM_EVEN_SKY_CLUSTER);
+        choose_cluster(world.cluster_cdf, scene.cluster_count, seed, frame, i, BOUNCES, pixel, STREAM_EVEN_SKY_CLUSTER);
     const Band band =
         choose_band(&world, light_index, cluster, random4(seed, sample, pixel, 0u, STREAM_EVEN_SKY_WAVELENGTH).x);
     Path way = path_from_eye(eye, outwards);
     Hit end = first;
-    Surface surface;
-    const float radiance_scale =
-        reach_diffuse(&world, &way, &end, &band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY, &surface);
+    Visitor eye = eye_visitor(&band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY);
+    Interaction at;
+    const float radiance_scale = reach_base(&world, &eye, &way, &end, &at);
     if (radiance_scale == 0.0f) continue;
     const float3 irradiance =
-        even_irradiance(&world, &light, targets, &way, &surface, end.primitive, &band, seed, sample, pixel);
+        even_irradiance(&world, &light, &way, &at.surface, at.triangle, &band, seed, sample, pixel);
     const Source sky = {light_index, irradiance};
-    xyz += carried_light(&world, &way.losses, sky, &band, reflector_at(&world, &surface, end.primitive)).xyz *
-           (radiance_scale / (PI_F * (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)BOUNCES));
+    xyz += carried_light(&world, &way.losses, sky, &band, reflector_at(&world, &at.surface, at.triangle)).xyz *
+           (radiance_scale / (PI_F * (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)BOUNCES));
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
              jitter.z);

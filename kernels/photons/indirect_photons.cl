@@ -4,10 +4,11 @@
 // by diffuse surfaces. From the second of these on, each adds to the pixel that sees it. Only absorption changes its
 // power: reflectances decide by chance. A map takes photons for what glass and mirrors show.
 #include "kernels/photons/pass_band.h"
-#include "kernels/photons/photon_path.h"
+#include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
 #include "kernels/photons/store.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/scatter_path.h"
 
 // 1: what the map's photons meet on their way to the eye has a wavelength: they share those of the pass with its paths.
 #ifndef NEPHROID_SHARED_BANDS
@@ -24,53 +25,84 @@ typedef struct {
 } Receiver;
 
 typedef struct {
-  Path path;
+  const Receiver* receiver;
   SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces behind it
   SET_ASIDE float watts;    // as if the band had all of the light's power
   SET_ASIDE int wavelength; // wavelength and weight of its band
   SET_ASIDE float weight;
-  SET_ASIDE int number;     // of its band in the map (pass_band.h)
-  SET_ASIDE int light;      // light and rgb of its source
+  SET_ASIDE int band; // of its band in the map (pass_band.h)
+  SET_ASIDE int light; // light and rgb of its source
   SET_ASIDE float3 rgb;
-} Photon;
+  uint2 seed;
+  uint iteration, number;
+  bool counts;      // it has met glass or a mirror, or comes from a narrow spot: others light is found from the eye
+  bool met_diffuse;
+  bool met_glass; // before its first diffuse surface: paths from the eye do not find its light
+  uint met;       // surfaces at which it might be stored
+  bool is_absorbed;
+  int refused; // contributions, by the film
+} Visitor;
 
-static inline Band band_of(const Photon* photon) {
+static inline Band visitor_band(const Visitor* photon) {
   const Band band = {0, photon->wavelength, photon->weight};
   return band;
 }
 
-static inline Source light_of(const Photon* photon) {
+static inline Source light_of(const Visitor* photon) {
   const Source source = {photon->light, photon->rgb};
   return source;
 }
 
-// Adds a photon's light, reflected by a diffuse surface, to the pixel that sees it. False where the film refused it.
-static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
-                        uint triangle, Reflector reflector, float dither, float2 lens) {
+static inline float4 photon_numbers(const Visitor* photon, uint block) {
+  return random4(photon->seed, photon->iteration, photon->number, block, STREAM_INDIRECT_PHOTONS);
+}
+
+static inline WalkNumbers visitor_numbers(const Visitor* photon, const Interaction* at, int n) {
+  const bool chooses_base = has_coat(&at->material) && photon->counts;
+  const WalkNumbers numbers = {
+      photon_numbers(photon, chooses_base ? 0x20000000u | (uint)n : 2u + (uint)n).x,
+      microfacet_numbers(photon->seed, photon->iteration, photon->number, (uint)n, STREAM_INDIRECT_PHOTONS)};
+  return numbers;
+}
+
+// As photon_path.h: what comes straight from the light to a coat is reflected.
+static inline uint visitor_lobes(const Visitor* photon, const Interaction* at, int n) {
+  return photon->counts || is_only_matt(&at->material) ? LOBES_ALL : LOBES_ALL & ~LOBE_DIFFUSE;
+}
+
+// Adds a photon's light, reflected by a diffuse surface, to the pixel that sees it.
+static inline void show(const World* world, Visitor* photon, const Path* path, const Interaction* at,
+                        Reflector reflector, float dither, int n) {
+  const Receiver* receiver = photon->receiver;
 #if NEPHROID_LENS
+  const float2 lens = random4(photon->seed, photon->iteration, photon->number, 128u + (uint)n, STREAM_LENS).xy;
   const DeviceCamera camera = through_lens(&receiver->camera, lens);
-  const Splat splat = splat_at(world, &camera, surface, triangle, photon->path.direction);
+  const Splat splat = splat_at(world, &camera, &at->surface, at->triangle, path->direction);
 #else
-  const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
+  const Splat splat = splat_at(world, &receiver->camera, &at->surface, at->triangle, path->direction);
 #endif
-  if (splat.pixel < 0) return true;
-  const Band band = band_of(photon);
-  const float3 xyz = carried_light(world, &photon->path.losses, light_of(photon), &band, reflector).xyz;
+  if (splat.pixel < 0) return;
+  const Band band = visitor_band(photon);
+  const float3 xyz = carried_light(world, &path->losses, light_of(photon), &band, reflector).xyz;
   const float scale = photon->watts * photon->shading * splat.weight / PI_F;
-  return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
+  if (!film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither))
+    ++photon->refused;
 }
 
 #if NEPHROID_STORE
 // Stores a photon, reflected by a diffuse surface. Of the surfaces that it meets one is drawn, this one with the chance
-// 1 / met, and stands for all of them. False where the map refused it.
-static inline bool store(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
-                         Reflector reflector, uint met, float2 random) {
-  if (random.x * (float)met >= 1.0f) return true;
-  const Band band = band_of(photon);
-  const float3 xyz = carried_light(world, &photon->path.losses, light_of(photon), &band, reflector).xyz;
-  const float power = photon->watts * photon->shading * shading_ratio(surface, photon->path.direction);
-  return store_photon(receiver->slot, surface, photon->path.direction, photon->number, receiver->object_count,
-                      xyz * power, receiver->stored_scale, random.y);
+// 1 / met, and stands for all of them.
+static inline void store(const World* world, Visitor* photon, const Path* path, const Interaction* at,
+                         Reflector reflector, int n) {
+  const float2 random = photon_numbers(photon, 0x10000000u | (uint)n).xy;
+  ++photon->met;
+  if (random.x * (float)photon->met >= 1.0f) return;
+  const Band band = visitor_band(photon);
+  const float3 xyz = carried_light(world, &path->losses, light_of(photon), &band, reflector).xyz;
+  const float power = photon->watts * photon->shading * shading_ratio(&at->surface, path->direction);
+  if (!store_photon(photon->receiver->slot, &at->surface, path->direction, photon->band,
+                    photon->receiver->object_count, xyz * power, photon->receiver->stored_scale, random.y))
+    ++photon->refused;
 }
 
 // Makes the photon in a slot stand for `met` surfaces. False where it would carry too much.
@@ -87,9 +119,45 @@ static inline bool stand_for(__global StoredPhoton* slot, uint met) {
 }
 #endif
 
+static inline bool visit_base(const World* world, Visitor* photon, Path* path, const Interaction* at, int n) {
+  if (!photon->counts) return false;
+  const float4 random = photon_numbers(photon, 2u + (uint)n);
+  const Reflector reflector = reflector_at(world, &at->surface, at->triangle);
+  if (photon->met_diffuse) show(world, photon, path, at, reflector, random.w, n);
+#if NEPHROID_STORE
+  if (photon->met_diffuse && photon->met_glass) store(world, photon, path, at, reflector, n);
+#endif
+  photon->met_diffuse = true;
+  photon->shading *= shading_ratio(&at->surface, path->direction);
+  const float side = dot(path->direction, at->surface.geometric) < 0.0f ? 1.0f : -1.0f;
+  path->direction = cosine_direction(side * at->surface.geometric, random.y, random.z);
+  const float part = reflectance_of(&world->tables, reflector, photon->wavelength) *
+                     part_to_base(world, &at->surface, path->direction);
+  photon->is_absorbed = random.x >= part;
+  if (photon->is_absorbed) return false;
+  photon->shading *= fmax(part, 1.0f); // of what a coat keeps from grazing ways, others have more
+  path->origin = start_on_side(&at->surface, side);
+  path->skip = at->triangle;
+  path->behind = 0.0f;
+  return true;
+}
+
+static inline bool visit_scatter(const World* world, Visitor* photon, Path* path, const Interaction* at,
+                                 const ScatterSample* sample, int n) {
+  if (!photon->counts && has_coat(&at->material)) lose_to_base(path, &at->material, sample);
+  photon->counts = true;
+  photon->met_glass = photon->met_glass || !photon->met_diffuse;
+  return true;
+}
+
+#define WALK_LOBES
+#define WALK_BASES
+#define WALK_SCATTERS
+#include "kernels/transport/walk.h"
+
 // Draws a photon's wavelength, by a number in [0, 1) and the light's chances of those of all clusters.
 static inline void choose_wavelength(const World* world, __global const float* chances, float random, uint2 seed,
-                                     uint pass, Photon* photon) {
+                                     uint pass, Visitor* photon) {
   __global const int* const first = world->tables.cluster_first;
   const int members = first[world->scene.cluster_count];
   Band band = wavelength_of_cluster(0, world->tables.cluster_wavelengths, chances, members, random);
@@ -103,81 +171,14 @@ static inline void choose_wavelength(const World* world, __global const float* c
   band = band_of_pass(world, cluster, part, seed, pass);
   band.weight /= chance;
 #endif
-  photon->number = band_number(cluster, part);
+  photon->band = band_number(cluster, part);
 #endif
   photon->wavelength = band.wavelength;
   photon->weight = band.weight;
 }
 
-// Follows a photon to its end and returns its OUTCOME_*. *segments: rays of its path. Counts what the film refuses.
-// narrow: of its light; the diffuse surfaces that others light are found from the eye (indirect.cl). *met: at how many
-// surfaces it might be stored.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, bool narrow,
-                                uint2 seed, uint iteration, uint number, int* segments, uint* met, Outcomes outcomes) {
-  Path* path = &photon->path;
-  bool counts = narrow, met_diffuse = false;
-#if NEPHROID_STORE
-  bool met_glass = false; // before its first diffuse surface: paths from the eye do not find its light
-#endif
-  for (int surface_number = 0;; ++surface_number) {
-    const Hit hit = next_hit(world, path);
-    *segments = surface_number + 1;
-    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return counts ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-    const Surface surface = surface_of(world, hit);
-    const DeviceMaterial material = material_at(world, &surface, hit.primitive);
-    lose_in_medium(world, path, hit.t);
-    const float4 random = random4(seed, iteration, number, 2u + (uint)surface_number, STREAM_INDIRECT_PHOTONS);
-    const Band band = band_of(photon);
-    const float2 facet = facet_numbers(seed, iteration, number, (uint)surface_number, STREAM_INDIRECT_PHOTONS);
-    const bool must_reflect = is_plastic(&material) && !counts; // as in trace_way
-    float choice = random.x;
-    if (is_plastic(&material) && counts)
-      choice = random4(seed, iteration, number, 0x20000000u | (uint)surface_number, STREAM_INDIRECT_PHOTONS).x;
-    const bool ends = ends_at(world, path->direction, &surface, &material, must_reflect ? -1.0f : choice, facet);
-    if (ends) {
-      if (!counts) return OUTCOME_MISSED;
-#if NEPHROID_LENS
-      const float2 lens = random4(seed, iteration, number, 128u + (uint)surface_number, STREAM_LENS).xy;
-#else
-      const float2 lens = (float2)(0.0f);
-#endif
-      const Reflector reflector = reflector_at(world, &surface, hit.primitive);
-      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, reflector, random.w, lens))
-        add_outcome(outcomes, OUTCOME_REFUSED, 1);
-#if NEPHROID_STORE
-      if (met_diffuse && met_glass &&
-          !store(world, receiver, photon, &surface, reflector, ++*met,
-                 random4(seed, iteration, number, 0x40000000u | (uint)surface_number, STREAM_INDIRECT_PHOTONS).xy))
-        add_outcome(outcomes, OUTCOME_REFUSED, 1);
-#endif
-      met_diffuse = true;
-      photon->shading *= shading_ratio(&surface, path->direction);
-      const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
-      path->direction = cosine_direction(side * surface.geometric, random.y, random.z);
-      const float part = reflectance_of(&world->tables, reflector, band.wavelength) *
-                         part_through_coat(world, &surface, path->direction);
-      if (random.x >= part) return OUTCOME_ABSORBED;
-      photon->shading *= fmax(part, 1.0f); // of what a coat keeps from grazing ways, others have more
-      path->origin = start_on_side(&surface, side);
-      path->skip = hit.primitive;
-      path->behind = 0.0f;
-    }
-    if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
-    counts = true;
-    if (ends) continue;
-#if NEPHROID_STORE
-    met_glass = met_glass || !met_diffuse;
-#endif
-    float n_ratio;
-    Bend bend;
-    if (!bend_path_as(world, path, hit.primitive, &surface, &material, &band, random.x, facet, &n_ratio, &bend))
-      return OUTCOME_LOST;
-    if (must_reflect) lose_below_coat(path, &material, &bend);
-  }
-}
-
 // Follows `count` photons offset, offset + stride, ... of a pass. emitters: one for each light that has photons.
-__kernel void indirect_photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets,
+__kernel void indirect_photons(WORLD_ARGUMENTS,
                                __global const DeviceEmitter* emitters, int emitter_count,
                                __global const float* spectrum_cdf, // [light][member of all clusters]: chances
                                volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
@@ -185,7 +186,7 @@ __kernel void indirect_photons(WORLD_ARGUMENTS, __global const DeviceTarget* tar
                                int object_count, DeviceCamera camera, uint2 seed, uint iteration, uint offset,
                                uint stride, uint count, float film_scale, float energy_scale, float stored_scale) {
   const World world = WORLD;
-  const int members = cluster_first[scene.cluster_count];
+  const int members = world.tables.cluster_first[scene.cluster_count];
   Receiver receiver = {film_of_iteration(film, iteration, camera.width * camera.height), film_scale, camera,
                        stored, stored_scale, object_count};
   OUTCOMES(outcomes);
@@ -198,37 +199,48 @@ __kernel void indirect_photons(WORLD_ARGUMENTS, __global const DeviceTarget* tar
     receiver.slot->group = NO_PHOTON;
 #endif
     const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
-    DeviceLight light = lights[emitter.light];
+    DeviceLight light = world.lights[emitter.light];
     const float4 random = random4(seed, iteration, number, 0u, STREAM_INDIRECT_PHOTONS);
     const float2 place =
         has_places(&light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy : (float2)(0.0f);
     const Source source = source_of(&world, emitter.light, place, &light);
     const bool narrow = is_narrow(&light);
     Emission emission =
-        narrow ? emit_in_cone(&light, random) : emit(&light, targets, &scene, random, place);
+        narrow ? emit_in_cone(&light, random) : emit(&light, world.targets, &scene, random, place);
     emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
-    Photon photon = {
-        {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind},
-        1.0f,
-        emission.watts / (float)emitter.photon_count,
-        0,
-        0.0f,
-        0,
-        source.light,
-        source.rgb};
+    Visitor photon;
+    photon.receiver = &receiver;
+    photon.shading = 1.0f;
+    photon.watts = emission.watts / (float)emitter.photon_count;
+    photon.light = source.light;
+    photon.rgb = source.rgb;
+    photon.seed = seed;
+    photon.iteration = iteration;
+    photon.number = number;
+    photon.counts = narrow;
+    photon.met_diffuse = photon.met_glass = photon.is_absorbed = false;
+    photon.met = 0u;
+    photon.refused = 0;
     choose_wavelength(&world, spectrum_cdf + emitter.light * members, random.w, seed, iteration, &photon);
-    int segments;
-    uint met = 0u;
-    const int outcome =
-        follow_photon(&world, &receiver, &photon, narrow, seed, iteration, number, &segments, &met, outcomes);
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
+                 light.inside,    no_losses(),        emission.behind};
+    Hit hit;
+    Interaction at;
+    int last;
+    const int how = walk(&world, &photon, &path, &hit, false, 0, &at, &last);
+    const int outcome = photon.is_absorbed     ? OUTCOME_ABSORBED
+                        : how == WALK_LOST     ? OUTCOME_LOST
+                        : how == WALK_LEFT && photon.counts ? OUTCOME_ESCAPED
+                                               : OUTCOME_MISSED;
 #if NEPHROID_STORE
-    if (!stand_for(receiver.slot, met)) add_outcome(outcomes, OUTCOME_REFUSED, 1);
+    if (!stand_for(receiver.slot, photon.met)) ++photon.refused;
 #endif
-    const Band end = band_of(&photon);
-    count_photon(outcomes, outcome, segments,
-                 photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,
-                 wavelength_left(&world.tables, &photon.path.losses, photon.wavelength));
+    add_outcome(outcomes, OUTCOME_REFUSED, photon.refused);
+    const Band band = visitor_band(&photon);
+    count_photon(outcomes, outcome, last + 1,
+                 photon.watts * band_share(&world, source, &band, 0.0f) * energy_scale,
+                 wavelength_left(&world.tables, &path.losses, photon.wavelength));
   }
   add_outcomes(energy, outcomes);
 }

@@ -1,159 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photon's way from a light to its end: its emitter, its random numbers at the start, what it meets.
-#include "kernels/lights/emission.h"
-#include "kernels/tracing/low_discrepancy.h"
-#include "kernels/tracing/outcomes.h"
-#include "kernels/tracing/world.h"
+// A photon's way from a light to its end.
+#include "kernels/photons/photon_start.h"
+#include "kernels/transport/scatter_path.h"
 
-// The number of photons that one work item follows.
-#ifndef NEPHROID_PHOTONS_PER_ITEM
-#define NEPHROID_PHOTONS_PER_ITEM 1
-#endif
-
-// Counts the outcome, OUTCOME_*, of a photon of `power` quanta, of which `left` (0..1) came to its end, and its
-// segments.
-static inline void count_photon(Outcomes outcomes, int outcome, int segments, float power, float left) {
-  const long quanta = convert_long_rte(power), rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
-  add_outcome(outcomes, OUTCOME_EMITTED, quanta);
-  add_outcome(outcomes, outcome, rest);
-  add_outcome(outcomes, OUTCOME_ABSORBED, quanta - rest);
-  add_outcome(outcomes, OUTCOME_SEGMENTS, segments);
-}
-
-// The last item of a list that begins at this photon or before it, by bisection. first: first_photon of item 0, which
-// is repeated every `stride` words.
-static inline int last_from(__global const uint* first, int stride, int count, uint photon) {
-  int low = 0, high = count - 1;
-  while (low < high) {
-    const int middle = (low + high + 1) >> 1;
-    if (first[middle * stride] <= photon)
-      low = middle;
-    else
-      high = middle - 1;
-  }
-  return low;
-}
-
-static inline int emitter_of(__global const DeviceEmitter* emitters, int count, uint photon) {
-  return last_from(&emitters->first_photon, sizeof(DeviceEmitter) / sizeof(uint), count, photon);
-}
-
-// The order in which the photons 0 .. count - 1 of a launch are followed: in each 4096, by the number with its bits
-// reversed. Points of a Sobol sequence whose numbers agree in their lowest bits are close together, so successive
-// photons mostly meet the same nodes and triangles. Sums of whole numbers do not depend on the order.
-static inline uint neighbours_follow(uint number, uint count) {
-  const uint first = number & ~0xfffu;
-  return first + 0x1000u <= count ? first | reverse_bits(number) >> 20 : number;
-}
-
-// A photon's emitter and its random numbers at the start.
 typedef struct {
-  int emitter;
-  float4 emission;  // in [0, 1): target, direction (2); w: the film's dither
-  float2 place;     // in [0, 1): on an area light, or in the environment
-  float wavelength; // in [0, 1): chooses a wavelength of its cluster
-} PhotonStart;
+  Band band;
+  uint2 seed;
+  uint iteration, photon;
+  bool met_caustic_object;
+  SET_ASIDE float4 u;
+} Visitor;
 
-// The start of photon `photon` of the batch or pass with the number `iteration`. first_iteration: the first with this
-// allocation of photons to the emitters (DeviceEmitter::sequence_start is for it). Low discrepancy: the photons of a
-// light for one half of the film follow one sequence, pass after pass, so that those of all clusters together are
-// spread evenly. Its fourth number chooses the cluster and the wavelength in it. It has 32 bits, of which the choice of
-// the cluster takes up to 24; plain random bits below them make the wavelength as fine as any. The halves must be
-// independent, so they have sequences of their own.
-COMPILED_ONCE PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count,
-                                       __global const DeviceLight* lights, uint2 seed, uint iteration,
-                                       uint first_iteration, uint photon) {
-  PhotonStart start;
-  start.emitter = emitter_of(emitters, emitter_count, photon);
-  start.emission = random4(seed, iteration, photon, 0u, STREAM_PHOTONS);
-  start.wavelength = 0.0f;
-  start.place = (float2)(0.0f);
-  const DeviceEmitter emitter = emitters[start.emitter];
-  const DeviceLight light = lights[emitter.light];
-  const bool placed = has_places(&light);
-#if NEPHROID_LOW_DISCREPANCY
-  const ulong start_of_allocation = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
-  const ulong number = start_of_allocation +
-                       (ulong)((iteration - first_iteration) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
-                       (photon - emitter.light_first_photon);
-  const uint index = (uint)number; // a sequence has 2^32 points; then another begins
-  const uint3 sequence =
-      (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
-  const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
-  const uint below = (uint)(start.emission.x * 0x1p24f);         // 24 more bits of the fourth number
-  start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair
-  if (placed) start.place = sobol4(seed, sequence, 1u, index).xy;
-  // The fourth number times the light's photons: a whole photon above, a fraction of 32 bits below. Fits 2^32 photons.
-  const ulong count = emitter.light_photon_count, place = bits.w * count + (below * count >> 24);
-  const uint chosen_photon = emitter.light_first_photon + (uint)(place >> 32);
-  start.emitter = emitter_of(emitters, emitter_count, chosen_photon);
-  __global const DeviceEmitter* const chosen = emitters + start.emitter;
-  const float within = (float)(chosen_photon - chosen->first_photon) + (float)(uint)place * 0x1p-32f;
-  start.wavelength = clamp(within / (float)chosen->photon_count, 0.0f, 0x1.fffffep-1f);
-#else
-  if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || placed) {
-    const float4 more = random4(seed, iteration, photon, 1u, STREAM_PHOTONS);
-    start.place = more.xy;
-    start.wavelength = more.z;
-  }
-#endif
-  return start;
+static inline Band visitor_band(const Visitor* photon) { return photon->band; }
+
+static inline WalkNumbers visitor_numbers(Visitor* photon, const Interaction* at, int n) {
+  if ((n & 3) == 0)
+    photon->u = random4(photon->seed, photon->iteration, photon->photon, 2u + (uint)n / 4u, STREAM_PHOTONS);
+  const float4 u = photon->u;
+  photon->u = u.yzwx;
+  const WalkNumbers numbers = {
+      u.x, microfacet_numbers(photon->seed, photon->iteration, photon->photon, (uint)n, STREAM_PHOTONS)};
+  return numbers;
 }
 
-// A photon's end: where it ended, and how much of its power was left.
-typedef struct {
-  int outcome;     // OUTCOME_*
-  int segments;    // rays of its path
-  float left;      // 0..1
-  Surface surface; // the surface of a deposit
-  uint triangle;
-  float3 xyz; // for a deposit: reflected light, as if the photon carried the light's whole power
-} PhotonEnd;
+// What comes straight from the light to a coat is reflected: what reaches the base is direct light.
+static inline uint visitor_lobes(const Visitor* photon, const Interaction* at, int n) {
+  return photon->met_caustic_object || is_only_matt(&at->material) ? LOBES_ALL : LOBES_ALL & ~LOBE_DIFFUSE;
+}
 
-// Follows a photon in a band to the first matt surface, out of the scene, or to its last interface. Leaves `path` on
-// its last way, with its losses. Does not work out what is left of the photon. Where it comes straight from the light
-// to a coat it is reflected, and loses what would reach the base: that is direct light.
+static inline bool visit_scatter(const World* world, Visitor* photon, Path* path, const Interaction* at,
+                                 const ScatterSample* sample, int n) {
+  if (!photon->met_caustic_object && has_coat(&at->material)) lose_to_base(path, &at->material, sample);
+  photon->met_caustic_object = true;
+  return true;
+}
+
+#define WALK_LOBES
+#define WALK_SCATTERS
+#include "kernels/transport/walk.h"
+
+// Follows a photon in a band to the first matt surface, out of the scene, or to its last surface. Leaves `path` on its
+// last way, with its losses. Does not work out what is left of the photon.
 static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration,
                                   uint photon) {
+  Visitor visitor = {*band, seed, iteration, photon, false, (float4)(0.0f)};
   PhotonEnd end;
-  end.outcome = OUTCOME_LOST;
+  Hit hit;
+  Interaction at;
+  int surfaces;
+  const int how = walk(world, &visitor, path, &hit, false, 0, &at, &surfaces);
+  const bool met = visitor.met_caustic_object;
+  end.outcome = how == WALK_LOST      ? OUTCOME_LOST
+                : how == WALK_AT_BASE ? (met ? OUTCOME_DEPOSITED : OUTCOME_MISSED)
+                                      : (met ? OUTCOME_ESCAPED : OUTCOME_MISSED);
+  end.segments = surfaces + 1;
   end.left = 1.0f;
-  bool met_caustic_object = false;
-  SET_ASIDE float4 choices = (float4)(0.0f);
-  for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
-    const Hit hit = next_hit(world, path);
-    end.segments = surface_number + 1;
-    if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
-      end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-      break;
-    }
-    const Surface surface = surface_of(world, hit);
-    const DeviceMaterial material = material_at(world, &surface, hit.primitive);
-    lose_in_medium(world, path, hit.t);
-    if (material.type == MATERIAL_DIFFUSE) {
-      end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
-      end.surface = surface;
-      end.triangle = hit.primitive;
-      break;
-    }
-    if (surface_number == world->scene.max_surfaces && !is_plastic(&material)) break;
-    if ((surface_number & 3) == 0)
-      choices = random4(seed, iteration, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
-    const float2 facet = facet_numbers(seed, iteration, photon, (uint)surface_number, STREAM_PHOTONS);
-    const bool must_reflect = is_plastic(&material) && !met_caustic_object;
-    if (ends_at(world, path->direction, &surface, &material, must_reflect ? -1.0f : choices.x, facet)) {
-      end.outcome = OUTCOME_DEPOSITED;
-      end.surface = surface;
-      end.triangle = hit.primitive;
-      break;
-    }
-    if (surface_number == world->scene.max_surfaces) break;
-    met_caustic_object = true;
-    float n_ratio;
-    Bend bend;
-    if (!bend_path_as(world, path, hit.primitive, &surface, &material, band, choices.x, facet, &n_ratio, &bend)) break;
-    if (must_reflect) lose_below_coat(path, &material, &bend);
-    choices = choices.yzwx;
+  if (how == WALK_AT_BASE) {
+    end.surface = at.surface;
+    end.triangle = at.triangle;
   }
   return end;
 }

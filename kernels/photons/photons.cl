@@ -3,6 +3,7 @@
 // and mirrors, and are splatted into the pixel that sees the diffuse surface they reach.
 #include "kernels/photons/guide.h"
 #include "kernels/photons/pass_band.h"
+#include "kernels/photons/photon_path.h"
 #include "kernels/photons/store.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
@@ -29,7 +30,7 @@ static inline long squared(float3 xyz, float scale) {
 
 // Follows `count` photons offset, offset + stride, ... of the batch `iteration` and those that follow it. map_pass is
 // the pass of the maps. energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
-__kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
+__kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
                       volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
@@ -50,9 +51,9 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #if NEPHROID_STORE
     stored[stored_first + place].group = NO_PHOTON;
 #endif
-    PhotonStart start = photon_start(emitters, emitter_count, lights, seed, batch, first_iteration, photon);
+    PhotonStart start = photon_start(emitters, emitter_count, world.lights, seed, batch, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
-    DeviceLight light = lights[emitter.light];
+    DeviceLight light = world.lights[emitter.light];
 #if NEPHROID_MOMENTS
     const Guided guided = guide_numbers(guide + emitter.light * GUIDE_FLOATS, &start.emission);
     long moment = 0;
@@ -60,7 +61,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const Guided guided = {1.0f, 0u};
 #endif
     const Source source = source_of(&world, emitter.light, start.place, &light);
-    Emission emission = emit(&light, targets, &scene, start.emission, start.place);
+    Emission emission = emit(&light, world.targets, &scene, start.emission, start.place);
     emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE

@@ -2,10 +2,9 @@
 // The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all
 // wavelengths of a lamp take the same path and share one layer. Through glass and mirrors each cluster of each lamp has
 // its own. Before the first pass a survey finds the reflectors that each pixel sees.
-#include "kernels/tracing/camera.h"
-#include "kernels/tracing/eye_path.h"
-#include "kernels/tracing/work_item.h"
 #include "kernels/photons/layers.h"
+#include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_walk.h"
 
 // Each work item finds the reflector at each fixed place of one pixel, -1 where there is none.
 __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
@@ -20,7 +19,7 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
     const Hit first = next_hit(&world, &first_way);
     const bool hits = first.primitive != NEPHROID_NO_PRIMITIVE, straight = hits && is_unbent(&world, &camera, &first);
     unbent[pixel * SURVEY_PLACES + place] =
-        straight ? material_of(&world, object_of_primitive(&world.geometry, first.primitive)).reflector : -1;
+        straight ? material_of_hit(&world, &first).reflector : -1;
     for (int p = 0; p < SURVEY_PATHS; ++p) {
       const uint number = (uint)(place * SURVEY_PATHS + p);
       int seen = -1;
@@ -29,9 +28,9 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
         const Band band = whole_cluster(min((int)(choice * (float)scene.cluster_count), scene.cluster_count - 1));
         Path path = first_way;
         Hit hit = first;
-        Surface surface;
-        if (reach_diffuse(&world, &path, &hit, &band, seed, number, 0u, (uint)pixel, STREAM_CAMERA, &surface) > 0.0f)
-          seen = material_of(&world, surface.object).reflector;
+        Visitor eye = eye_visitor(&band, seed, number, 0u, (uint)pixel, STREAM_CAMERA);
+        Interaction at;
+        if (reach_base(&world, &eye, &path, &hit, &at) > 0.0f) seen = at.material.reflector;
       }
       bent[pixel * SURVEY_PLACES * SURVEY_PATHS + (int)number] = seen;
     }
@@ -69,14 +68,15 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     }
     Path path = first_way;
     Hit hit = first;
-    Surface surface;
-    weight *= reach_diffuse(&world, &path, &hit, &band, seed, sample, 0u, (uint)pixel, STREAM_CAMERA, &surface);
+    Visitor eye = eye_visitor(&band, seed, sample, 0u, (uint)pixel, STREAM_CAMERA);
+    Interaction at;
+    weight *= reach_base(&world, &eye, &path, &hit, &at);
     if (weight == 0.0f) continue;
     if (!straight) weight *= cluster_left(&world.tables, &path.losses, band.cluster);
-    const int reflector = material_of(&world, surface.object).reflector;
+    const int reflector = at.material.reflector;
     for (int l = 0; l < scene.light_count; ++l) {
       const float radiance = weight *
-                             irradiance_of(&world, l, &path, &surface, hit.primitive, seed, sample,
+                             irradiance_of(&world, l, &path, &at.surface, at.triangle, seed, sample,
                                            straight ? 1u : PATHS_THROUGH_GLASS, (uint)pixel) /
                              PI_F;
       if (radiance == 0.0f) continue;

@@ -7,7 +7,7 @@
 
 // Follows `count` photons offset, offset + stride, ... of a pass. All lamps have 1 W or 1 W m^-2. An emitter's `share`
 // is its cluster's present power in the unit of energy_scale, for the energy counters. Every photon counts alike.
-__kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
+__kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
                       LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
                       volatile __global long* energy,                                     // [OUTCOME_COUNT]
                       DeviceCamera camera, uint2 seed, uint iteration, uint first_iteration, uint offset, uint stride,
@@ -20,11 +20,11 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     if (number >= count) break;
     const uint photon = offset + stride * number;
     const PhotonStart start =
-        photon_start(emitters, scene.emitter_count, lights, seed, iteration, first_iteration, photon);
+        photon_start(emitters, scene.emitter_count, world.lights, seed, iteration, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
-    DeviceLight light = lights[emitter.light];
+    DeviceLight light = world.lights[emitter.light];
     choose_in_lamp(&world, &light, start.place);
-    Emission emission = emit(&light, targets, &scene, start.emission, start.place);
+    Emission emission = emit(&light, world.targets, &scene, start.emission, start.place);
     emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds a photon on a diffuse surface to the pixel that sees it. Unbiased: no map, no radius.
+#include "kernels/scatter/scatter.h"
+#include "kernels/tracing/camera.h"
 #include "kernels/tracing/film.h"
-#include "kernels/tracing/world.h"
 
 // 0: nothing can stand between the camera and what it sees.
 #ifndef NEPHROID_OCCLUSION
@@ -82,7 +83,7 @@ COMPILED_ONCE Splat splat_at(const World* world, const DeviceCamera* camera, con
   splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit,
                                  &splat.weight);
   splat.weight *= shading_ratio(surface, arriving);
-  splat.weight *= part_through_coat(world, surface, normalize(way_to_camera(camera, surface->position)));
+  splat.weight *= part_to_base(world, surface, normalize(way_to_camera(camera, surface->position)));
   if (camera->receiver >= 0) {
     if (surface->object != camera->receiver) splat.pixel = -1;
     return splat;

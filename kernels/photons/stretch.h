@@ -7,7 +7,7 @@
 // along D + x D', where x is its s less the photon's (differential.h). It is cut with the tangent plane of the receiver
 // exactly: a place on a grazing receiver is anything but linear in x. A wavelength's light lies as a tent over +-1 nm:
 // so it is interpolated linearly between the 401 wavelengths, and their sum stays the same.
-#include "kernels/photons/photon_path.h"
+#include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
 
 // The most splats of a photon, and the length in pixels below which it stays a point of its own wavelength.

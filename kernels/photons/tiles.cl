@@ -6,6 +6,7 @@
 #include "kernels/photons/footprint_splat.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/scatter_path.h"
 
 // The part of a photon's light below which not every point of the lattice follows what is left: one of 4, then of 16,
 // ... does, and stands for all, as a lattice twice as wide. Beyond that many levels chance decides.
@@ -52,20 +53,19 @@ static inline Reflector reflector_of_tile(const World* world, const Surface* sur
 
 #if NEPHROID_DIFFERENTIALS
 // The light of the part 0 .. u of a cluster's distribution of wavelengths, in a row of the tables of lights.
-static inline float3 light_before(const World* world, __global const float4* reflected_before,
-                                  __global const float* cdf, int row, Reflector reflector, int first, int count,
+static inline float3 light_before(const World* world, __global const float* cdf, int row, Reflector reflector, int first, int count,
                                   float u) {
   u = fmin(u, 0x1.fffffep-1f);
   const int member = choose(cdf, count, u), members = world->tables.cluster_first[world->scene.cluster_count];
   const int wavelength = world->tables.cluster_wavelengths[first + member];
   const float before = chance_before(cdf, member), part = (u - before) / (cdf[member] - before);
-  return reflected_before[(row * world->scene.reflector_count + reflector.row) * members + first + member].xyz +
+  return world->reflected_before[(row * world->scene.reflector_count + reflector.row) * members + first + member].xyz +
          part * reflectance_of(&world->tables, reflector, wavelength) *
              world->tables.light_xyz[row * WAVELENGTH_COUNT + wavelength].xyz;
 }
 
 // The light of the part low .. high of a cluster's distribution of wavelengths, as PhotonEnd's xyz.
-static inline float3 light_of_part(const World* world, __global const float4* reflected_before, const Losses* losses,
+static inline float3 light_of_part(const World* world, const Losses* losses,
                                    Source source, int cluster, Reflector reflector, float low, float high) {
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
   __global const float* cdf =
@@ -85,8 +85,8 @@ static inline float3 light_of_part(const World* world, __global const float4* re
   for (int row = 0; row < (is_sky ? 3 : 1); ++row) {
     const float of_row = row == 0 ? source.rgb.x : row == 1 ? source.rgb.y : source.rgb.z;
     const float3 of_part =
-        light_before(world, reflected_before, cdf, source.light + row, reflector, first, count, high) -
-        light_before(world, reflected_before, cdf, source.light + row, reflector, first, count, low);
+        light_before(world, cdf, source.light + row, reflector, first, count, high) -
+        light_before(world, cdf, source.light + row, reflector, first, count, low);
     xyz += (is_sky ? of_row : 1.0f) * of_part;
   }
   return xyz;
@@ -103,7 +103,6 @@ static inline bool spans_triangles(const Geometry* geometry, uint primitive, con
 
 // What splats need beside the photon.
 typedef struct {
-  __global const float4* reflected_before;
   __global const PixelView* views;
   volatile __global long* film; // the lattice's half of it
   float scale;
@@ -188,7 +187,7 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
     if (!touches_film(camera, &f)) continue;
 #if NEPHROID_DIFFERENTIALS
     if (sweep.count > 1 || lattice->high - lattice->low < 1.0f)
-      strand.xyz = light_of_part(world, film->reflected_before, &path->losses, source, band->cluster, reflector, low,
+      strand.xyz = light_of_part(world, &path->losses, source, band->cluster, reflector, low,
                                  low + part);
 #endif
     const SeenReceiver receiver = seen_receiver(camera, film->views, &strand.surface, strand.triangle, side);
@@ -198,21 +197,59 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
   return fits;
 }
 
-// What became of a branch at its next surface.
-#define BRANCH_GOES_ON 0
-#define BRANCH_ENDS 1
-#define BRANCH_IS_DROPPED 2 // other points of the lattice stand for it
+// How a branch and those that wait are followed: the visitor of a walk.
+typedef struct {
+  Band band;
+  Branch branch, before; // now; at the surface that scatters it
+  Branch pending[TILE_PENDING];
+  int waiting;
+  int segments; // rays of all branches
+  float cell;   // the side of the lattice's cells
+  uint2 point;  // of the lattice
+  uint2 seed;
+  uint iteration, photon;
+} Visitor;
 
-// At glass both branches are followed. `branch` has gone through and `reflected` waits before the surface; what is
-// followed later is put into `pending`, and of two that with more light: so few branches wait.
-static inline int split_branch(const World* world, const DeviceMaterial* material, const Band* band,
-                               const Bend* through, const PhotonEnd* end, uint2 point, float4 u, Branch* branch,
-                               Branch* reflected, Branch* pending, int* waiting) {
+static inline Band visitor_band(const Visitor* tile) { return tile->band; }
+
+static inline WalkNumbers visitor_numbers(const Visitor* tile, const Interaction* at, int n) {
+  const WalkNumbers none = {0.0f, (float2)(0.0f)}; // what goes through and what is reflected are both followed
+  return none;
+}
+
+static inline uint visitor_lobes(const Visitor* tile, const Interaction* at, int n) {
+  return LOBE_DIFFUSE | LOBE_TRANSMISSION;
+}
+
+static inline void visit_segment(const World* world, Visitor* tile, const Path* path, const Hit* hit) {
+  ++tile->segments;
+}
+
+static inline void visit_surface(const World* world, Visitor* tile, const Path* path, const Interaction* at, int n) {
+  if (!is_only_matt(&at->material)) tile->before = tile->branch;
+}
+
+static inline bool visit_scatter(const World* world, Visitor* tile, Path* path, const Interaction* at,
+                                 const ScatterSample* sample, int n);
+
+#define WALK_SEGMENTS
+#define WALK_SURFACES
+#define WALK_LOBES
+#define WALK_SCATTERS
+#include "kernels/transport/walk.h"
+
+// At glass both branches are followed. tile->branch has gone through and `reflected` waits before the surface; what is
+// followed later is put into tile->pending, and of two that with more light: so few branches wait. False: other points
+// of the lattice stand for both.
+static inline bool split_branch(const World* world, Visitor* tile, const Interaction* at, const ScatterSample* through,
+                                Branch* reflected) {
+  const float4 u = random4(tile->seed, tile->iteration, tile->photon, (uint)tile->segments - 1u, STREAM_PHOTONS);
+  Branch* branch = &tile->branch;
   reflected->weight *= through->reflectance;
   branch->weight *= 1.0f - through->reflectance;
-  bool goes_through = is_followed(branch->weight, point, u.x, &branch->level, &branch->stands);
-  bool goes_back = is_followed(reflected->weight, point, u.y, &reflected->level, &reflected->stands);
-  if (goes_through && goes_back && *waiting == TILE_PENDING) { // no room: one stands for both
+  bool goes_through = is_followed(branch->weight, tile->point, u.x, &branch->level, &branch->stands);
+  bool goes_back = is_followed(reflected->weight, tile->point, u.y, &reflected->level, &reflected->stands);
+  if (goes_through && goes_back && tile->waiting == TILE_PENDING) { // no room: one stands for both
     const float light = branch->weight * branch->stands,
                 chance = light / (light + reflected->weight * reflected->stands);
     goes_through = u.z < chance;
@@ -220,50 +257,28 @@ static inline int split_branch(const World* world, const DeviceMaterial* materia
     branch->stands /= chance;
     reflected->stands /= 1.0f - chance;
   }
-  float n_ratio;
-  Bend back;
-  goes_back = goes_back && bend_path_as(world, &reflected->path, end->triangle, &end->surface, material, band, -1.0f,
-                                        (float2)(0.0f), &n_ratio, &back);
+  const WalkNumbers none = {0.0f, (float2)(0.0f)};
+  ScatterSample back;
+  goes_back = goes_back && scatter_path(world, &reflected->path, at, &tile->band, LOBE_REFLECTION, none, &back);
   if (goes_through && goes_back) {
     const bool more_through = branch->weight > reflected->weight;
-    pending[(*waiting)++] = more_through ? *branch : *reflected;
+    tile->pending[tile->waiting++] = more_through ? *branch : *reflected;
     if (more_through) *branch = *reflected;
   } else if (goes_back)
     *branch = *reflected;
-  return goes_through || goes_back ? BRANCH_GOES_ON : BRANCH_IS_DROPPED;
+  return goes_through || goes_back;
 }
 
-// Takes a branch to its next surface and, at glass or a mirror, on from there. end: the outcome where it ends, and the
-// surface. cell: the side of the lattice's cells. u: uniform in [0, 1).
-COMPILED_ONCE int next_surface(const World* world, const Band* band, float cell, uint2 point, float4 u, Branch* branch,
-                               Branch* pending, int* waiting, PhotonEnd* end) {
-  const Hit hit = next_hit(world, &branch->path);
-  if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
-    end->outcome = branch->met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-    return BRANCH_ENDS;
-  }
-  end->surface = surface_at(&world->geometry, hit);
-  end->triangle = hit.primitive;
-  const DeviceMaterial material = material_of(world, end->surface.object);
-  lose_in_medium(world, &branch->path, hit.t);
-  if (material.type == MATERIAL_DIFFUSE) {
-    end->outcome = branch->met ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
-    return BRANCH_ENDS;
-  }
-  end->outcome = OUTCOME_LOST;
-  if (branch->surfaces++ == world->scene.max_surfaces) return BRANCH_ENDS;
-  branch->met = true;
-  Branch reflected = *branch;
-  Bend bend;
-  float n_ratio;
-  if (!bend_path_as(world, &branch->path, hit.primitive, &end->surface, &material, band, 2.0f, (float2)(0.0f),
-                    &n_ratio, &bend))
-    return BRANCH_ENDS;
-  branch->is_coarse = branch->is_coarse || spans_triangles(&world->geometry, hit.primitive, branch->path.by_place,
-                                                           cell * sqrt(branch->stands));
-  reflected.is_coarse = branch->is_coarse;
-  if (!bend.transmitted || bend.reflectance == 0.0f) return BRANCH_GOES_ON;
-  return split_branch(world, &material, band, &bend, end, point, u, branch, &reflected, pending, waiting);
+static inline bool visit_scatter(const World* world, Visitor* tile, Path* path, const Interaction* at,
+                                 const ScatterSample* sample, int n) {
+  Branch *branch = &tile->branch, *before = &tile->before;
+  branch->met = before->met = true;
+  branch->surfaces = before->surfaces = n + 1;
+  branch->is_coarse = branch->is_coarse || spans_triangles(&world->geometry, at->triangle, branch->path.by_place,
+                                                           tile->cell * sqrt(branch->stands));
+  before->is_coarse = branch->is_coarse;
+  if (!sample->transmitted || sample->reflectance == 0.0f) return true;
+  return split_branch(world, tile, at, sample, before);
 }
 
 // A photon's first branch. emission: its by_place[2] is set already.
@@ -281,8 +296,8 @@ static inline void start_branch(Branch* branch, const Emission* emission, Media 
 }
 
 // Follows the points first .. first + count - 1 of a round. energy: as of photons.cl.
-__kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceLattice* lattices,
-                    __global const float4* reflected_before, __global const PixelView* views,
+__kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices,
+                    __global const PixelView* views,
                     volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                     int lattice_count, DeviceCamera camera, uint2 seed, uint iteration, uint first, uint count,
                     float film_scale, float energy_scale) {
@@ -299,12 +314,12 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
     const float2 disc = (convert_float2(index) + (float2)(lattice.shift_x, lattice.shift_y)) * lattice.step - 1.0f;
     if (dot(disc, disc) > 1.0f) continue;
     const uint2 point = index + (uint2)(lattice.phase & 0xffffu, lattice.phase >> 16);
-    DeviceLight light = lights[lattice.light];
+    DeviceLight light = world.lights[lattice.light];
     const float2 place = (float2)(lattice.place_x, lattice.place_y);
     const Source source = source_of(&world, lattice.light, place, &light);
-    Branch branch;
+    Visitor tile;
     Emission emission =
-        emit_on_lattice(&light, targets, &scene, lattice.target, disc, place, branch.path.by_place);
+        emit_on_lattice(&light, world.targets, &scene, lattice.target, disc, place, tile.branch.path.by_place);
     emission.watts *= photometric(&world, &light, emission.direction);
     if (emission.watts == 0.0f) continue;
     const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
@@ -315,37 +330,51 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glo
                                   ? carried_light(&world, &none, source, &whole, reflector_of_row(0)).w
                                   : lattice.share,
                 watts = emission.watts / lattice.photons;
-    const TileFilm to_film = {reflected_before, views,
+    const TileFilm to_film = {views,
                               film_of_iteration(film, lattice.film_half, camera.width * camera.height), film_scale};
-    start_branch(&branch, &emission, light.inside);
-    Branch pending[TILE_PENDING];
-    int waiting = 0, segments = 0;
+    tile.band = band;
+    tile.waiting = tile.segments = 0;
+    tile.cell = lattice.step;
+    tile.point = point;
+    tile.seed = seed;
+    tile.iteration = iteration;
+    tile.photon = photon;
+    start_branch(&tile.branch, &emission, light.inside);
     for (;;) {
-      PhotonEnd end;
-      const float4 u = random4(seed, iteration, photon, (uint)segments++, STREAM_PHOTONS);
-      const int became = next_surface(&world, &band, lattice.step, point, u, &branch, pending, &waiting, &end);
-      if (became == BRANCH_GOES_ON) continue;
-      if (became == BRANCH_ENDS) {
-        const bool deposited = end.outcome == OUTCOME_DEPOSITED;
+      Branch* const branch = &tile.branch;
+      Hit hit;
+      Interaction at;
+      int surface_number;
+      const int how = walk(&world, &tile, &branch->path, &hit, false, branch->surfaces, &at, &surface_number);
+      if (how != WALK_DROPPED) {
+        PhotonEnd end;
+        const bool met = branch->met, deposited = how == WALK_AT_BASE && met;
+        end.outcome = how == WALK_LOST ? OUTCOME_LOST
+                      : deposited      ? OUTCOME_DEPOSITED
+                      : met            ? OUTCOME_ESCAPED
+                                       : OUTCOME_MISSED;
         end.left = 1.0f;
-        if (deposited || branch.path.losses.any) {
-          const Reflector reflector =
-              deposited ? reflector_of_tile(&world, &end.surface) : white_reflector();
-          const float4 carried = carried_light(&world, &branch.path.losses, source, &whole, reflector);
-          end.xyz = carried.xyz;
-          if (branch.path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;
+        if (deposited) {
+          end.surface = at.surface;
+          end.triangle = at.triangle;
         }
-        const float carried_watts = watts * branch.weight * branch.stands;
+        if (deposited || branch->path.losses.any) {
+          const Reflector reflector = deposited ? reflector_of_tile(&world, &end.surface) : white_reflector();
+          const float4 carried = carried_light(&world, &branch->path.losses, source, &whole, reflector);
+          end.xyz = carried.xyz;
+          if (branch->path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;
+        }
+        const float carried_watts = watts * branch->weight * branch->stands;
         if (deposited &&
-            !splat_branch(&world, &camera, &lattice, &end, &branch, source, &band, carried_watts, &to_film, photon))
+            !splat_branch(&world, &camera, &lattice, &end, branch, source, &band, carried_watts, &to_film, photon))
           add_outcome(outcomes, OUTCOME_REFUSED, 1);
         count_photon(outcomes, end.outcome, 0,
                      carried_watts * power_share * (lattice.high - lattice.low) * energy_scale, end.left);
       }
-      if (waiting == 0) break;
-      branch = pending[--waiting];
+      if (tile.waiting == 0) break;
+      *branch = tile.pending[--tile.waiting];
     }
-    add_outcome(outcomes, OUTCOME_SEGMENTS, segments);
+    add_outcome(outcomes, OUTCOME_SEGMENTS, tile.segments);
   }
   add_outcomes(energy, outcomes);
 }

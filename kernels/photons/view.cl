@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths from the eye through glass and mirrors to the diffuse surface whose photons they gather (gather.cl).
-#include "kernels/tracing/eye_path.h"
-#include "kernels/tracing/work_item.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
+#include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_walk.h"
 
 // The factors of X, Y and Z by which a path's losses reduce the light that it brings to the eye. A single wavelength
 // has its own. Photons of a whole cluster carry a sum over its wavelengths, to which losses can no longer be applied
@@ -41,25 +41,16 @@ static inline VisiblePoint nothing_visible(void) {
 COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, bool reflected, const Band* band, int part,
                                float weight, int object_count, uint2 seed, uint sample, uint pixel) {
   VisiblePoint point = nothing_visible();
-  Surface surface;
-#if NEPHROID_PLASTICS
-  if (reflected) {
-    const float2 facet = facet_numbers(seed, sample, pixel, BEFORE_THE_PATH, STREAM_VIEW);
-    float share;
-    Bend bend;
-    if (!first_bend(world, &path, &hit, band, true, facet, &share, &bend)) return point;
-    weight *= share;
-    hit = next_hit(world, &path);
-    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return point;
-  }
-#endif
-  const float radiance_scale = reach_diffuse(world, &path, &hit, band, seed, sample, 0u, pixel, STREAM_VIEW, &surface);
+  Visitor eye = eye_visitor(band, seed, sample, 0u, pixel, STREAM_VIEW);
+  if (reflected) eye.first_lobes = LOBE_REFLECTION;
+  Interaction at;
+  const float radiance_scale = reach_base(world, &eye, &path, &hit, &at);
   if (radiance_scale == 0.0f) return point;
-  const Reflector reflector = reflector_at(world, &surface, hit.primitive);
-  point.position = (float4)(surface.position, 0.0f);
-  point.normal = (float4)(surface.geometric, 0.0f);
+  const Reflector reflector = reflector_at(world, &at.surface, at.triangle);
+  point.position = (float4)(at.surface.position, 0.0f);
+  point.normal = (float4)(at.surface.geometric, 0.0f);
   point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.losses, band, reflector), 0.0f);
-  point.group = photon_group(surface.object, dot(path.direction, surface.geometric) < 0.0f,
+  point.group = photon_group(at.surface.object, dot(path.direction, at.surface.geometric) < 0.0f,
                              band_number(band->cluster, part), object_count);
   return point;
 }
@@ -68,7 +59,7 @@ COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, bool refl
 // or -1: each path that meets glass or a mirror first takes one by its chance in cluster_cdf and counts for so much
 // more; so does what a coat reflects, and the others see nothing here. sample: the number of earlier paths of a pixel;
 // place: of those in this half of the film. Each path counts 1 / path_count of a pass.
-__kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points,
+__kernel void view(WORLD_ARGUMENTS, __global VisiblePoint* points,
                    DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
                    int object_count, __global const uint* pixels, uint first, uint count) {
   const World world = WORLD;
@@ -83,12 +74,13 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
   const Hit hit = next_hit(&world, &path);
   VisiblePoint point = nothing_visible();
   if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
-    const bool bent = material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
+    const DeviceMaterial met = material_of_hit(&world, &hit);
+    const bool bent = !is_only_matt(&met);
     float weight = 1.0f / (float)path_count;
-    const bool reflected = cluster < 0 && shows_coat(&world, &hit);
+    const bool reflected = cluster < 0 && has_coat(&met);
     if (cluster < 0 && bent) {
-      cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel, STREAM_VIEW_CLUSTER);
-      weight /= (cluster_cdf[cluster + 1] - cluster_cdf[cluster]);
+      cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel, STREAM_VIEW_CLUSTER);
+      weight /= (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]);
     }
     if (cluster >= 0) {
       const int part = part_of_cluster(jitter.w);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The materials, each on one line: MATERIAL(its word in presets, its name here, its lobes). This list makes the preset's
-// words and the numbers MATERIAL_*, and sends a surface's verbs to the material's file on the host and on the device.
+// The materials, each on one line: MATERIAL(its word in presets, its name here, its lobes). This list makes the
+// preset's words and the numbers MATERIAL_*, and sends a surface's verbs to the material's file on host and device.
 #ifndef NEPHROID_MATERIAL_TYPES_H
 #define NEPHROID_MATERIAL_TYPES_H
 

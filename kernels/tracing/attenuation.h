@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The losses of a path, wavelength by wavelength: Beer-Lambert absorption exp(-a s) in glass, with a = 4 pi k / lambda
 // in 1/m and s in metres, and what surfaces take as exp(-a s) with s a number of times: a = -ln(reflectance) of a
-// mirror, -ln(tint) of glass. Metals and roughness have their own (kernels/materials). A path carries the s of each.
+// mirror, -ln(tint) of glass. Metals and roughness have their own (kernels/scatter). A path carries the s of each.
 // Without losses NEPHROID_ATTENUATORS is 0 and this compiles to nothing.
 #include "kernels/tracing/registers.h"
-#include "kernels/tracing/scene_table_types.h"
+#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/reflector.h"
 
 #ifndef NEPHROID_ATTENUATORS
 #define NEPHROID_ATTENUATORS 1
 #endif
+
+#define LOSES_ALL 200.0f // exp(-200) is 0 in single precision
 
 typedef struct {
 #if NEPHROID_ATTENUATORS > 0

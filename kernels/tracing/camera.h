@@ -1,8 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the eye begin: their direction, and the wavelength cluster of one that meets glass.
-#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/path.h"
 #include "kernels/tracing/random.h"
-#include "kernels/tracing/world.h"
+
+// 1: the camera has a lens, a shift or parallel rays. 0: it is a pinhole with its axis in the middle of the picture.
+#ifndef NEPHROID_LENS
+#define NEPHROID_LENS 0
+#endif
+
+#if NEPHROID_LENS
+// The pinhole that a camera is at a place of its lens: it sees the same in the plane of focus. The lens's picture is
+// the mean of theirs. lens: uniform in [0, 1) x [0, 1).
+static inline DeviceCamera through_lens(const DeviceCamera* camera, float2 lens) {
+  DeviceCamera pinhole = *camera;
+  const float radius = camera->lens_radius * sqrt(lens.x);
+  float cosine;
+  const float sine = sincos(2.0f * PI_F * lens.y, &cosine), aside = radius * cosine, upwards = radius * sine;
+  pinhole.position.xyz += aside * camera->right.xyz + upwards * camera->up.xyz;
+  pinhole.shift_x -= aside / camera->focus;
+  pinhole.shift_y -= upwards / camera->focus;
+  return pinhole;
+}
+#endif
+
+// direction: unit, along forward + x right + y up, so its derivative by x is (right - (right.D) D) (forward.D).
+static inline Path path_from_eye(const DeviceCamera* camera, float3 direction) {
+  Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
+#if NEPHROID_PLACE_DIFFERENTIALS
+  const float along = dot(direction, camera->forward.xyz);
+  const float3 right = camera->right.xyz, up = camera->up.xyz;
+  path.by_place[0].position = path.by_place[1].position = (float3)(0.0f);
+  path.by_place[0].direction =
+      2.0f * camera->tan_x / (float)camera->width * along * (right - dot(right, direction) * direction);
+  path.by_place[1].direction =
+      -2.0f * camera->tan_y / (float)camera->height * along * (up - dot(up, direction) * direction);
+#if NEPHROID_LENS
+  if (camera->orthographic) {
+    path.by_place[0].position = 2.0f * camera->tan_x / (float)camera->width * right;
+    path.by_place[1].position = -2.0f * camera->tan_y / (float)camera->height * up;
+    path.by_place[0].direction = path.by_place[1].direction = (float3)(0.0f);
+  }
+#endif
+#endif
+  return path;
+}
 
 // jitter: the place in the pixel's square, [0, 1) each way. The camera stands on its lens (stand_on_lens).
 static inline float3 primary_direction(const DeviceCamera* camera, int column, int row, float2 jitter) {

@@ -8,7 +8,7 @@
 // piece is there with its share, and what is even is seen as without differentials.
 #include "kernels/lights/background.h"
 #include "kernels/lights/emission.h"
-#include "kernels/tracing/world.h"
+#include "kernels/tracing/path.h"
 
 typedef struct {
   float3 direction; // d, unit

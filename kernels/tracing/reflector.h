@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a diffuse surface reflects at one of its points: a row of the reflectance tables, or with a texture a mixture of
 // the three after it, red, green and blue (app/optics/primary_reflectances.h).
-#include "kernels/tracing/scene_table_types.h"
+#include "kernels/tracing/shared_types.h"
 
 #ifndef NEPHROID_TEXTURES
 #define NEPHROID_TEXTURES 1

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a scene, each on one line: TABLE(type of an item, name, words for messages). These lists make the
-// host's vectors, the buffers, their upload and the plan's memory (app/tracing), and the kernels' arguments and structs
-// (world.h). A new table is a line here and the code that fills it.
+// The tables of a scene, each on one line: TABLE(type of an item, name, words for readers). These lists make the host's
+// vectors, their place on the device and the plan's memory (app/tracing), and the kernels' structs (world.h). A new
+// table is a line here and the code that fills it. On the device they lie one after the other in two blocks, of where
+// surfaces are and of all the rest. DeviceScene says where each begins, in steps of TABLE_STEP bytes.
 #ifndef NEPHROID_SCENE_TABLE_TYPES_H
 #define NEPHROID_SCENE_TABLE_TYPES_H
 
-#include "kernels/tracing/shared_types.h"
+#define TABLE_STEP 128
 
 // clang-format off
 
@@ -59,27 +60,28 @@
   TABLE(float, lamp_tables, "lamps' tables") /* mesh: chances of its surfaces; picture: of rows, then of each row's \
     texels; photometry: [plane][gamma] intensity over the mean of all directions */
 
-// Tables that only some kernels read, as arguments of their own.
+// Where photons are sent.
 #define TARGET_TABLES(TABLE) \
   TABLE(DeviceTarget, targets, "targets") /* lists: DeviceLight::first_target */
+
+// What paths from the eye, and tiles, look up.
 #define COLOUR_TABLES(TABLE) \
   TABLE(float, cluster_cdf, "cluster choice") /* [cluster + 1]: what paths through glass are worth */ \
   TABLE(float4, reflected_xyz_all, "reflected colours") /* [row][reflector]: reflected_xyz of all clusters */ \
   TABLE(float4, reflected_before, "reflected colours by wavelength") /* [row][reflector][of cluster_wavelengths]: the \
     sum over the members of the cluster before it, as reflected_xyz's */
 
-// Tables that every kernel of the scene reads: WORLD_ARGUMENTS.
-#define WORLD_TABLES(TABLE) \
-  GEOMETRY_TABLES(TABLE) OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE) \
-  TEXTURE_TABLES(TABLE) LAMP_TABLES(TABLE)
-#define SCENE_TABLES(TABLE) WORLD_TABLES(TABLE) TARGET_TABLES(TABLE) COLOUR_TABLES(TABLE)
+#define OTHER_TABLES(TABLE) \
+  OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE) TEXTURE_TABLES(TABLE) \
+  LAMP_TABLES(TABLE) TARGET_TABLES(TABLE) COLOUR_TABLES(TABLE)
 
 // clang-format on
 
+#define TABLE_FIRST(type, name, words) uint name;
 #ifdef __OPENCL_C_VERSION__
 #define TABLE_MEMBER(type, name, words) __global const type* name;
-#define TABLE_ARGUMENT(type, name, words) __global const type *name,
-#define TABLE_VALUE(type, name, words) name,
+#define TABLE_IN_GEOMETRY(type, name, words) (__global const type*)(geometry + (size_t)scene.first.name * TABLE_STEP),
+#define TABLE_IN_TABLES(type, name, words) (__global const type*)(tables + (size_t)scene.first.name * TABLE_STEP),
 #else
 #define TABLE_VECTOR(type, name, words) std::vector<type> name;
 #endif

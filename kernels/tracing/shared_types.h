@@ -5,6 +5,7 @@
 #define NEPHROID_SHARED_TYPES_H
 
 #include "kernels/scatter/material_types.h"
+#include "kernels/tracing/scene_table_types.h"
 
 #ifndef __OPENCL_C_VERSION__
 #include <cstdint>
@@ -189,6 +190,12 @@ typedef struct {
   float4 normal; // flat triangle: unit, outwards, w: how far a new ray starts from it; ellipsoid: third row
 } DevicePrimitive;
 
+// Where each table begins in its block.
+typedef struct {
+  GEOMETRY_TABLES(TABLE_FIRST)
+  OTHER_TABLES(TABLE_FIRST)
+} DeviceTables;
+
 typedef struct {
   int root; // the tree's root: bvh.h
   int material_count;
@@ -200,12 +207,13 @@ typedef struct {
   int max_surfaces;       // surfaces that a path may meet before it counts as lost
   int reflector_count;
   DeviceBackground sky_size; // the environment's as a light, if it is one
+  DeviceTables first;
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 48 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
-static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
+static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 52 + sizeof(DeviceTables) && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64 && sizeof(DeviceTexture) == 44);
 } // namespace nephroid::shared
 #endif

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a hit of the tree to a point on a surface: exact position, geometric and shading normal, object.
 #include "kernels/tracing/bvh.h"
-#include "kernels/tracing/fresnel.h"
-#include "kernels/materials/coating.h"
-#include "kernels/tracing/scene_table_types.h"
+#include "kernels/tracing/shared_types.h"
 
 #ifndef NEPHROID_SMOOTH
 #define NEPHROID_SMOOTH 1
@@ -21,6 +19,11 @@ typedef struct {
   float offset;     // how far a new ray starts from the surface, along the geometric normal
   int object;
 } Surface;
+
+// How a place and a direction move with something: their derivatives by it (differential.h).
+typedef struct {
+  float3 position, direction; // P', D'
+} Differential;
 
 static inline int kind_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) & 3; }
 static inline int object_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) >> 2; }
@@ -154,47 +157,9 @@ static inline float shading_ratio(const Surface* surface, float3 arriving) {
 #endif
 }
 
-// What a mirror or dielectric does to a ray: the new direction, and whether the ray went through.
-typedef struct {
-  float3 direction;
-  float3 normal;    // the normal of the bend: unit, on the side that the ray came from
-  int near_material; // materials before and beyond an interface; -1: air
-  int far_material;
-  float reflectance; // the part that is reflected; 1 at a mirror and where all is
-  bool transmitted;
-  bool straight; // nothing bent it; the normal is set at a pane only
-} Bend;
-
-// normal: unit, on the ray's side. choice: uniform in [0, 1); the ray is reflected if it is below the reflectance.
-static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, Layer layer, float choice) {
-  Bend bend;
-  bend.normal = normal;
-  bend.near_material = bend.far_material = -1;
-  bend.straight = false;
-  const float cos_i = clamp(-dot(direction, normal), 0.0f, 1.0f);
-  const float eta = n_i / n_t;
-  const float cos_t = refracted_cosine(cos_i, eta);
-  bend.reflectance = cos_t >= 0.0f ? layered_reflectance(cos_i, cos_t, n_i, n_t, layer) : 1.0f;
-  bend.transmitted = cos_t >= 0.0f && !(choice < bend.reflectance);
-  bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta)
-                                    : reflect_about(direction, normal, cos_i);
-  return bend;
-}
-
 // The normal on a ray's side: the shading normal, or where that looks away the triangle's own.
 static inline float3 normal_before(float3 direction, const Surface* surface) {
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 shading = side * surface->shading;
   return dot(direction, shading) < 0.0f ? shading : side * surface->geometric;
-}
-
-// Bends about the shading normal, or where that sends the ray to the wrong side, about the triangle's own.
-static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, Layer layer,
-                                   float choice) {
-  const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
-  const float3 geometric = side * surface->geometric;
-  Bend bend = bend_at(direction, normal_before(direction, surface), n_i, n_t, layer, choice);
-  const float leaves = dot(bend.direction, geometric);
-  if (bend.transmitted ? leaves >= 0.0f : leaves <= 0.0f) bend = bend_at(direction, geometric, n_i, n_t, layer, choice);
-  return bend;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's
+// kernels/transport/differential.h against finite differences of the same paths in double precision, and a prism's
 // angular dispersion in closed form.
 #include "spectral/engine.h"
 #include "tests/support/differential_reference.h"
@@ -13,7 +13,7 @@ using check::ball;
 
 constexpr int steps = 24; // surfaces of a path
 
-const char* const source = R"(#include "kernels/tracing/world.h"
+const char* const source = R"(#include "kernels/transport/scatter_path.h"
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/work_item.h"
 
@@ -31,16 +31,16 @@ __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const
   for (int step = 0; step < STEPS; ++step) {
     const Hit hit = next_hit(&world, &path);
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
-    const Surface surface = surface_at(&world.geometry, hit);
-    const DeviceMaterial material = material_of(&world, surface.object);
+    const Interaction met = interaction_at(&world, hit);
+    const Surface surface = met.surface;
     const float3 arriving = path.direction;
     uint event = 0;
-    if (material.type == MATERIAL_DIFFUSE)
+    if (is_only_matt(&met.material))
       differential_to_surface(&path.differential, path.direction, hit.t, &surface);
     else {
-      const float4 choice = random4(seed, 0u, i, (uint)step, 0u);
-      float n_ratio;
-      if (!bend_path(&world, &path, hit.primitive, &surface, &material, &band, choice.x, (float2)(0.0f), &n_ratio)) return;
+      const WalkNumbers numbers = {random4(seed, 0u, i, (uint)step, 0u).x, (float2)(0.0f)};
+      ScatterSample sample;
+      if (!scatter_path(&world, &path, &met, &band, LOBES_ALL, numbers, &sample)) return;
       event = dot(arriving, surface.geometric) * dot(path.direction, surface.geometric) > 0.0f ? 2u : 1u;
     }
     const uint at = i * STEPS + (uint)step;

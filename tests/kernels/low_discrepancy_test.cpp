@@ -18,7 +18,7 @@ const char* const source = R"(
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/random.h"
 #include "kernels/photons/guide.h"
-#include "kernels/photons/photon_path.h"
+#include "kernels/photons/photon_start.h"
 #include "kernels/tracing/work_item.h"
 // How many photons of a pass fall into each of 401 equal parts of their clusters, of emitters of at most `largest` photons.
 __kernel void wavelengths(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights, uint2 seed,

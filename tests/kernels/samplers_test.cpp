@@ -51,9 +51,9 @@ kernel void reflections(global const float4* interfaces, int interface_count, ui
   float4 choices = random4(seed, 0u, i, 2u, STREAM_PHOTONS);
   int reflected = 0;
   for (int k = 0; k < 4; ++k) {
-    const Bend bend = bend_at_surface((float3)(sqrt(1.0f - at.x * at.x), 0.0f, -at.x), &surface, at.y, at.z, no_layer(),
-                                      choices.x);
-    if (!bend.transmitted) reflected |= 1 << k;
+    const ScatterSample sample =
+        scatter_at((float3)(sqrt(1.0f - at.x * at.x), 0.0f, -at.x), &surface, at.y, at.z, no_film(), choices.x);
+    if (!sample.transmitted) reflected |= 1 << k;
     choices = choices.yzwx;
   }
   out[i] = reflected;

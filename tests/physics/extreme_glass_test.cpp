@@ -115,7 +115,7 @@ preset::Preset nested(int count) {
 /// degrees.
 double transmission_error(double theta_deg, double n, bool turned) {
   const TestKernels kernels(R"(
-#include "kernels/tracing/fresnel.h"
+#include "kernels/scatter/fresnel.h"
 #include "kernels/tracing/work_item.h"
 kernel void bend(global const float4* direction, global const float4* normal, float n, global float* transmitted)
 {

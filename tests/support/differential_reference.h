@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kernels/tracing/differential.h is judged by: a path in double precision, written from the laws themselves,
+// What kernels/transport/differential.h is judged by: a path in double precision, written from the laws themselves,
 // through a given sequence of triangles and ellipsoids, so that a slightly different index of refraction sends it
 // through the same ones.
 #pragma once

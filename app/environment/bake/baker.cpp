@@ -90,8 +90,7 @@ void Baker::advance() {
   photons_a_slice_.timed(count, [&] {
     if (rank >= at_once()) return;
     world_.run_photons(kernel_, count,
-                       {{"targets", world_.buffers.targets},
-                        {"light_rgb", light_rgb_},
+                       {{"light_rgb", light_rgb_},
                         {"radii", radii_},
                         {"film", film_},
                         {"energy", energy_},

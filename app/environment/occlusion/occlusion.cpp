@@ -63,7 +63,7 @@ Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmen
 
 std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg,
                                                     const std::vector<glm::dvec3>& from) {
-  if (surroundings.buffers.primitives.size() == 0 || whole_.empty()) return whole_;
+  if (surroundings.buffers.geometry.size() == 0 || whole_.empty()) return whole_;
   const std::vector<std::uint8_t> is_seen = visibility_.free(surroundings, directions_, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;

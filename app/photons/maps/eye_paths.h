@@ -59,8 +59,7 @@ public:
   void trace(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths,
              int cluster, const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count) {
     world_.queue(view_, std::max(count, 1u), 64,
-                 {{"cluster_cdf", world_.buffers.cluster_cdf},
-                  {"points", points_},
+                 {{"points", points_},
                   {"camera", camera},
                   {"seed", seed},
                   {"pass", pass},

@@ -224,8 +224,7 @@ private:
     const RunTables& t = world_.tables;
     const std::int64_t iteration = iterations_of(cluster, pass);
     world_.send(send_, slice, iteration,
-                {{"targets", world_.buffers.targets},
-                 {"emitters", sender.emitters},
+                {{"emitters", sender.emitters},
                  {"film", unused_},
                  {"energy", run_of(cluster).energy},
                  {"moments", unused_},

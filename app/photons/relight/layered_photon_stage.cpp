@@ -35,8 +35,7 @@ public:
         world_.context.communicator(), world_.tables.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
           world_.send(
               kernel_, slice, pass,
-              {{"targets", world_.buffers.targets},
-               {"emitters", world_.emitters},
+              {{"emitters", world_.emitters},
                {"film_first", film_.first()},
                {"film_cells", film_.cells()},
                {"film_sums", film_.sums()},

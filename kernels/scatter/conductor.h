@@ -3,12 +3,7 @@
 // It depends on angle and wavelength, and a path may stand for many wavelengths. So a metal has CONDUCTOR_TERMS rows of
 // losses (attenuation.h): -ln R(angle, wavelength) is nearly the sum over j of a_j(wavelength) times -ln R_j(angle),
 // the exact loss at one wavelength each. app/optics/conductor.h chooses these wavelengths and a_j, and says the error.
-#include "kernels/tracing/attenuation.h"
-
-// 0: no object is a metal.
-#ifndef NEPHROID_CONDUCTORS
-#define NEPHROID_CONDUCTORS 1
-#endif
+#include "kernels/scatter/interaction.h"
 
 // Mean of the reflectances of both polarisations. n, k: of the metal, over the index of the medium before it.
 static inline float conductor_reflectance(float cos_i, float n, float k) {
@@ -21,12 +16,19 @@ static inline float conductor_reflectance(float cos_i, float n, float k) {
   return 0.5f * s * (1.0f + (both - across) / (both + across));
 }
 
-#if NEPHROID_CONDUCTORS
-// terms: n and k at the wavelength of each term. n_near: index of the medium before the metal.
-static inline void lose_in_conductor(Losses* losses, int attenuator, __global const float* terms, float cos_i,
-                                     float n_near) {
-  for (int j = 0; j < CONDUCTOR_TERMS; ++j)
-    lose(losses, attenuator + j,
-         -log(fmax(conductor_reflectance(cos_i, terms[2 * j] / n_near, terms[2 * j + 1] / n_near), 1e-30f)));
+static inline bool conductor_scatter(const World* world, Path* path, const Interaction* at, const Band* band, float u,
+                                     ScatterSample* sample) {
+  *sample = reflect_at(path->direction, &at->surface, 1.0f, 1.0f);
+  sample->reflectance = 1.0f;
+  const int around = medium_object(&path->media, world->objects);
+  const float n_near = around < 0 ? 1.0f : index_of_band(world, band)[world->objects[around].material];
+  const float cos_i = -dot(path->direction, sample->normal);
+  __global const float* terms = world->tables.surface_data + at->material.surface_first; // n and k of each
+  for (int j = 0; j < CONDUCTOR_TERMS; ++j) {
+    const float reflectance = conductor_reflectance(cos_i, terms[2 * j] / n_near, terms[2 * j + 1] / n_near);
+    lose(&path->losses, at->material.attenuator + j, -log(fmax(reflectance, 1e-30f)));
+  }
+  return true;
 }
-#endif
+
+MATERIAL_WITHOUT_BASE(conductor)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an interface with one thin layer reflects: both faces of the layer, with the interference of all reflections in
 // it (Airy's sum; Born and Wolf, Principles of Optics, 7.6). It depends on the wavelength, so a path must have one.
+#include "kernels/scatter/fresnel.h"
 #include "kernels/tracing/frame.h"
-#include "kernels/tracing/fresnel.h"
 
 // 0: no object has a coating.
 #ifndef NEPHROID_COATINGS
@@ -11,12 +11,12 @@
 
 typedef struct {
   float n;         // index of refraction at the path's wavelength
-  float thickness; // in wavelengths of the vacuum; 0: there is no layer
-} Layer;
+  float thickness; // in wavelengths of the vacuum; 0: there is no film
+} ThinFilm;
 
-static inline Layer no_layer(void) {
-  const Layer layer = {1.0f, 0.0f};
-  return layer;
+static inline ThinFilm no_film(void) {
+  const ThinFilm none = {1.0f, 0.0f};
+  return none;
 }
 
 #if NEPHROID_COATINGS
@@ -38,22 +38,22 @@ static inline float layer_reflectance(float2 front, float2 back, float phase, bo
 }
 
 // Mean of both polarisations. cos_t: beyond the layer, not negative.
-static inline float coated_reflectance(float cos_i, float cos_t, float n_i, float n_t, Layer layer) {
-  const float sine = n_i * sqrt((1.0f - cos_i) * (1.0f + cos_i)) / layer.n;
+static inline float coated_reflectance(float cos_i, float cos_t, float n_i, float n_t, ThinFilm film) {
+  const float sine = n_i * sqrt((1.0f - cos_i) * (1.0f + cos_i)) / film.n;
   const float cos2 = (1.0f - sine) * (1.0f + sine), cosine = fmax(sqrt(fabs(cos2)), 1e-6f);
-  const float phase = 4.0f * PI_F * layer.n * layer.thickness * cosine;
+  const float phase = 4.0f * PI_F * film.n * film.thickness * cosine;
   const bool evanescent = cos2 < 0.0f;
-  const float2 across_front = {n_i * cos_i, layer.n * cosine}, across_back = {layer.n * cosine, n_t * cos_t};
-  const float2 in_front = {n_i * cosine, layer.n * cos_i}, in_back = {layer.n * cos_t, n_t * cosine};
+  const float2 across_front = {n_i * cos_i, film.n * cosine}, across_back = {film.n * cosine, n_t * cos_t};
+  const float2 in_front = {n_i * cosine, film.n * cos_i}, in_back = {film.n * cos_t, n_t * cosine};
   const float s = layer_reflectance(across_front, across_back, phase, evanescent);
   const float p = layer_reflectance(in_front, in_back, phase, evanescent);
   return clamp(0.5f * (s + p), 0.0f, 1.0f);
 }
 #endif
 
-static inline float layered_reflectance(float cos_i, float cos_t, float n_i, float n_t, Layer layer) {
+static inline float film_reflectance(float cos_i, float cos_t, float n_i, float n_t, ThinFilm film) {
 #if NEPHROID_COATINGS
-  if (layer.thickness > 0.0f) return coated_reflectance(cos_i, cos_t, n_i, n_t, layer);
+  if (film.thickness > 0.0f) return coated_reflectance(cos_i, cos_t, n_i, n_t, film);
 #endif
   return fresnel_reflectance(cos_i, cos_t, n_i, n_t);
 }

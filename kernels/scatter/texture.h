@@ -2,6 +2,7 @@
 // Pictures on surfaces: the place in the picture of a point of a triangle, and the colour there, from the four texels
 // about it or the one that it is in. It is a factor of a matt surface's reflectance, of the tint of glass or of
 // roughness, or it is a normal. Without textures NEPHROID_TEXTURES is 0, and this is a look-up of a row.
+#include "kernels/scatter/interaction.h"
 
 // 1: a surface has a texture of its roughness; a glass of its tint; a matt surface has a normal map.
 #ifndef NEPHROID_ROUGHNESS_TEXTURES
@@ -110,12 +111,11 @@ static inline DeviceMaterial material_at(const World* world, const Surface* surf
 }
 
 #if NEPHROID_TINT_TEXTURES
-// The part of light of a wavelength that passes a dielectric with a texture of its tint, at a point in a triangle.
-static inline float tint_at(const World* world, const DeviceMaterial* material, const Surface* surface, uint triangle,
-                            int wavelength) {
-  Reflector tint = reflector_of_row(material->reflector);
+// The part of light of a wavelength that passes a dielectric with a texture of its tint.
+static inline float tint_at(const World* world, const Interaction* at, int wavelength) {
+  Reflector tint = reflector_of_row(at->material.reflector);
   tint.is_textured = true;
-  tint.rgb = texture_at(world, material->texture, surface, triangle);
+  tint.rgb = texture_at(world, at->material.texture, &at->surface, at->triangle);
   return reflectance_of(&world->tables, tint, wavelength);
 }
 #endif

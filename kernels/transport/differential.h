@@ -7,16 +7,7 @@
 // and n' = dn/ds of every material is given. Where s is the wavelength in nm, a path moves by P' a nanometre; where s
 // is the index n itself, by P' a unit of n. Emission does not depend on the wavelength, so every path starts with P' =
 // 0 and D' = 0. The surfaces that a path meets, and whether they reflect it, are held fixed.
-#include "kernels/tracing/surface.h"
-
-// 0: splats are points, and all of this compiles to nothing.
-#ifndef NEPHROID_DIFFERENTIALS
-#define NEPHROID_DIFFERENTIALS 1
-#endif
-
-typedef struct {
-  float3 position, direction; // P', D'
-} Differential;
+#include "kernels/scatter/interaction.h"
 
 // A ray P + t D meets the plane of unit normal G through its hit at P + t D, and so do its neighbours:
 //   (P + t D)' = P' + t D' + t' D, and this is perpendicular to G, so t' = -(P' + t D').G / (D.G).
@@ -79,18 +70,45 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
   d->position = transferred(d, direction, distance, surface->geometric);
 }
 
-// Carries them across a bend at that surface. direction: before it. n_i, n_t and their n': equal at a mirror.
-static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
-                                             const Surface* surface, float3 direction, const Bend* bend, float n_i,
-                                             float n_t, float d_n_i, float d_n_t) {
+// Carries them across what scatters the path there. direction: before it. n_i, n_t and their n': equal at a mirror.
+static inline void differential_through_surface(Differential* d, const Geometry* geometry, uint primitive,
+                                                const Surface* surface, float3 direction, const ScatterSample* sample,
+                                                float n_i, float n_t, float d_n_i, float d_n_t) {
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);
   const DevicePrimitive met = geometry->primitives[primitive];
   const bool interpolated =
-      NEPHROID_SMOOTH && kind_of(&met) == PRIMITIVE_SMOOTH && any(bend->normal != side * surface->geometric);
+      NEPHROID_SMOOTH && kind_of(&met) == PRIMITIVE_SMOOTH && any(sample->normal != side * surface->geometric);
   if (interpolated || is_ellipsoid(&met)) d_normal = side * normal_differential(&met, surface->position, d->position);
   const float eta = n_i / n_t;
-  d->direction = bend->transmitted ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta,
+  d->direction = sample->transmitted ? refracted_differential(direction, d->direction, sample->normal, d_normal, eta,
                                                             (d_n_i - eta * d_n_t) / n_t)
-                                   : reflected_differential(direction, d->direction, bend->normal, d_normal);
+                                   : reflected_differential(direction, d->direction, sample->normal, d_normal);
+}
+
+// Carries the path's derivatives to a surface and across what scatters it there, before `path` itself goes on.
+static inline void scatter_differentials(const World* world, Path* path, const Interaction* at, const Band* band,
+                                         const ScatterSample* sample) {
+  const Surface* surface = &at->surface;
+  const float distance = dot(surface->position - path->origin, path->direction);
+#if NEPHROID_PLACE_DIFFERENTIALS
+  for (int i = 0; i < 2; ++i) {
+    differential_to_surface(&path->by_place[i], path->direction, distance, surface);
+    if (sample->straight) continue;
+    __global const float* n_of = index_of_band(world, band);
+    const int near = sample->near_material, far = sample->far_material;
+    differential_through_surface(&path->by_place[i], &world->geometry, at->triangle, surface, path->direction, sample,
+                                 near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], 0.0f, 0.0f);
+  }
+#endif
+#if NEPHROID_DIFFERENTIALS
+  differential_to_surface(&path->differential, path->direction, distance, surface);
+  if (sample->straight) return;
+  __global const float* n_of = index_of_band(world, band);
+  __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
+  const int near = sample->near_material, far = sample->far_material;
+  differential_through_surface(&path->differential, &world->geometry, at->triangle, surface, path->direction, sample,
+                               near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far],
+                               near < 0 ? 0.0f : slope_of[near], far < 0 ? 0.0f : slope_of[far]);
+#endif
 }

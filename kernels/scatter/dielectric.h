@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glass, water, diamond: which media meet at the surface, and whether a path is reflected or goes through. The surface
+// may have a tint, and one thin film as its coating. A pane has no thickness: what goes through goes straight on, and
+// all reflections between its two faces are summed, R + T R T + T R^3 T + ... = 2 R / (1 + R) with T = 1 - R. Light
+// keeps its polarisation between them: the mean is taken of both sums.
+#include "kernels/scatter/interaction.h"
+#include "kernels/scatter/texture.h"
+
+// 0: every dielectric has n = 1, so nothing is bent or reflected.
+#ifndef NEPHROID_BENDING
+#define NEPHROID_BENDING 1
+#endif
+
+// 0: no object is a pane.
+#ifndef NEPHROID_PANES
+#define NEPHROID_PANES 1
+#endif
+
+// 0: no surface of glass has a tint.
+#ifndef NEPHROID_TINTS
+#define NEPHROID_TINTS 1
+#endif
+
+// What meets at a surface. The objects whose media they are, -1: air; the indices of refraction there.
+typedef struct {
+  int near_object, far_object;
+  float n_near, n_far;
+  Media beyond;
+} Sides;
+
+static inline float index_of_object(int object, __global const DeviceObject* objects, __global const float* n_of) {
+  return object < 0 ? 1.0f : n_of[objects[object].material];
+}
+
+static inline int material_number(const World* world, int object) {
+  return object < 0 ? -1 : world->objects[object].material;
+}
+
+// media: those that enclose a path along `direction`. n_of: index of refraction by material, for the path's cluster.
+// False: more than MEDIA_DEPTH media.
+static inline bool find_sides(const Media* media, const Surface* surface, __global const DeviceObject* objects,
+                              __global const float* n_of, float3 direction, Sides* sides) {
+  sides->beyond = *media;
+  sides->near_object = medium_object(media, objects);
+  if (dot(direction, surface->geometric) < 0.0f) {
+    if (!enter_medium(&sides->beyond, surface->object)) return false;
+  } else if (is_inside(media, surface->object))
+    leave_medium(&sides->beyond, surface->object);
+  else
+    sides->near_object = surface->object; // an open mesh: the path got in without meeting its surface
+  sides->far_object = medium_object(&sides->beyond, objects);
+  sides->n_near = index_of_object(sides->near_object, objects, n_of);
+  sides->n_far = index_of_object(sides->far_object, objects, n_of);
+  return true;
+}
+
+// The coating for the wavelength of a band.
+static inline ThinFilm coating_of(const World* world, const DeviceMaterial* material, const Band* band) {
+  ThinFilm film = no_film();
+#if NEPHROID_COATINGS
+  if (material->surface_first >= 0) {
+    const int wavelength = max(band->wavelength, 0); // the plan gives every path one
+    film.n = world->tables.surface_data[material->surface_first + wavelength];
+    film.thickness = material->coating_nm / (float)(380 + wavelength);
+  }
+#endif
+  return film;
+}
+
+// n: index of the medium around, n_pane: of the pane. u: as in scatter_about.
+static inline ScatterSample scatter_at_pane(float3 direction, const Surface* surface, float n, float n_pane, float u) {
+  ScatterSample sample = reflect_at(direction, surface, n, n_pane);
+  if (sample.reflectance == 1.0f) return sample;
+  const float cos_i = clamp(-dot(direction, sample.normal), 0.0f, 1.0f), cos_t = refracted_cosine(cos_i, n / n_pane);
+  const float2 amplitudes = fresnel_amplitudes(cos_i, cos_t, n, n_pane), face = amplitudes * amplitudes,
+               both = 2.0f * face / (1.0f + face);
+  sample.reflectance = 0.5f * (both.x + both.y);
+  if (!(u < sample.reflectance)) {
+    sample.direction = direction;
+    sample.transmitted = sample.straight = true;
+  }
+  return sample;
+}
+
+// Takes away what a tint keeps of light that passes.
+static inline void lose_by_tint(const World* world, Path* path, const Interaction* at, const Band* band) {
+#if NEPHROID_TINTS
+  lose(&path->losses, at->material.tint, 1.0f);
+#if NEPHROID_TINT_TEXTURES
+  if (at->material.texture >= 0) {
+    const float part = tint_at(world, at, max(band->wavelength, 0)); // as coating_of
+    lose(&path->losses, at->material.masking, part > 0.0f ? -log(part) : LOSES_ALL);
+  }
+#endif
+#endif
+}
+
+static inline bool dielectric_scatter(const World* world, Path* path, const Interaction* at, const Band* band, float u,
+                                      ScatterSample* sample) {
+  __global const float* n_of = index_of_band(world, band);
+  const Surface* surface = &at->surface;
+#if NEPHROID_PANES
+  if (at->material.is_thin) {
+    const int around = medium_object(&path->media, world->objects);
+    *sample = scatter_at_pane(path->direction, surface, index_of_object(around, world->objects, n_of),
+                              n_of[world->objects[surface->object].material], u);
+    sample->near_material = sample->far_material = material_number(world, around);
+    if (sample->transmitted) lose_by_tint(world, path, at, band);
+    return true;
+  }
+#endif
+  Sides sides;
+  if (!find_sides(&path->media, surface, world->objects, n_of, path->direction, &sides)) return false;
+  const ThinFilm coating = coating_of(world, &at->material, band);
+  const bool coated = NEPHROID_COATINGS && coating.thickness > 0.0f && sides.near_object != sides.far_object;
+  if (!NEPHROID_BENDING || (sides.n_near == sides.n_far && !coated)) { // one medium hides the other, or they are alike
+    sample->direction = path->direction;
+    sample->transmitted = sample->straight = true;
+    sample->reflectance = 0.0f;
+    sample->n_ratio = 1.0f;
+  } else
+    *sample = scatter_at(path->direction, surface, sides.n_near, sides.n_far, coating, u);
+  sample->near_material = material_number(world, sides.near_object);
+  sample->far_material = material_number(world, sides.far_object);
+  if (!sample->transmitted) return true;
+  path->media = sides.beyond;
+  sample->n_ratio = sides.n_near / sides.n_far;
+  if (sample->near_material != sample->far_material) lose_by_tint(world, path, at, band);
+  return true;
+}
+
+MATERIAL_WITHOUT_BASE(dielectric)
