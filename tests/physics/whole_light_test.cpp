@@ -64,7 +64,7 @@ TEST_P(Furnaces, NothingCanBeSeen) {
                      .power_w = power,
                      .object = "room"}};
   p.scene.camera = {.position = {0, 0, 1.6}, .target = {0.1, 0, -0.4}, .fov_deg = 40, .resolution = {16, 16}};
-  p.stop.passes = 16;
+  p.stop.passes = GetParam().estimator == Estimator::sppm ? 4 : 16;
   const auto estimates = render_passes(p, [](const job::Snapshot& snapshot) { return std::vector{mean_of(snapshot)}; });
   const double of_a_watt =
       optics::to_xyz(GetParam().disperses ? optics::illuminant("E") : spectrum_of(p.scene.lights[0]))[1];
