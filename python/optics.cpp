@@ -9,8 +9,8 @@
 #include "preset/choices.h"
 #include "python/bindings.h"
 #include "run/display.h"
+#include "scatter/spectra.h"
 #include "scene/environment.h"
-#include "scene/materials.h"
 
 #include <fmt/format.h>
 
@@ -156,7 +156,7 @@ void add_optics(py::module_& module) {
       .def_readonly("source", &optics::DispersionCurve::source)
       .def("range_nm", &optics::DispersionCurve::range_nm)
       .def("sample", &sampled, py::arg("nm"));
-  module.def("load_dispersion", &scene::load_dispersion, py::arg("name"));
+  module.def("load_dispersion", &scatter::load_dispersion, py::arg("name"));
   module.def("clusters", &clusters, py::arg("n"), py::arg("threshold_deg"), py::arg("method"));
   module.def("segment", &segment, py::arg("texels"), py::arg("lights"), py::arg("method"));
   module.def("compare", &compare, py::arg("picture"), py::arg("reference"), py::arg("mask"));

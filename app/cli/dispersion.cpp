@@ -68,7 +68,7 @@ void note_missing(const std::string& file, const optics::DispersionCurve& curve,
 }
 
 void print_file(const std::string& file, const DispersionOptions& options) {
-  const optics::DispersionCurve curve = scene::load_dispersion(file);
+  const optics::DispersionCurve curve = scatter::load_dispersion(file);
   std::vector<optics::IndexSample> samples;
   for (double nm : options.nm.empty() ? usual_nm : options.nm)
     samples.push_back(curve.sample(nm, outside_policy(options.outside)));

@@ -4,7 +4,7 @@
 #pragma once
 #include "cli/verb.h"
 #include "preset/choices.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 
 #include <algorithm>
 
@@ -32,7 +32,7 @@ inline void add_outside_option(Verb& verb, std::string& chosen) {
                .words = words_of<preset::Extrapolation>()});
 }
 inline optics::Extrapolation outside_policy(const std::string& chosen) {
-  return scene::outside_policy(chosen_of<preset::Extrapolation>(chosen));
+  return scatter::outside_policy(chosen_of<preset::Extrapolation>(chosen));
 }
 
 } // namespace nephroid::cli

@@ -216,13 +216,13 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
         "{}: its middle, about which the spheres stand, is outside of it; the smallest sphere has the radius "
         "{:.4g}, as the surface is {:.4g} from there",
         task.caster.name, task.radii.front(), task.caster.extent.nearest));
-  if (any_material(scene, scene::is_rough) && std::ranges::any_of(scene.lights, std::not_fn(scene::is_environment)))
+  if (any_material(scene, scatter::is_rough) && std::ranges::any_of(scene.lights, std::not_fn(scene::is_environment)))
     plan.notes.push_back("lamps make no highlights on rough surfaces in this engine");
-  if (any_material(scene, scene::is_coated))
+  if (any_material(scene, scatter::is_coated))
     plan.notes.push_back("what a coating reflects to the camera has one colour in this engine, that of green light");
   if (std::ranges::any_of(scene.lights, scene::has_disc))
     plan.notes.push_back("caustics of a sun, or of another disc, are those of its middle in this engine's own light");
-  if (any_material(scene, [](const scene::Material& m) { return is_matt(m.type) && is_textured(m); }))
+  if (any_material(scene, [](const scatter::Material& m) { return is_matt(m.type) && is_textured(m); }))
     plan.notes.push_back("textures multiply red, green and blue of this engine's own light; its photons have spectra");
   for (const scene::Object& object : task.caster.scene.objects)
     if (!object.closed && is_body(material_of(task.caster.scene, object)))

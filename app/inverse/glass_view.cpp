@@ -4,7 +4,7 @@
 #include "inverse/light.h"
 #include "optics/colour.h"
 #include "preset/read.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -127,7 +127,7 @@ preset::Dispersion dispersion_of(const preset::Preset& preset) {
   const std::filesystem::path source(preset.source);
   if (index.type == preset::Dispersion::Type::file)
     index.file = std::filesystem::absolute(
-                     scene::find_dispersion(index.file, FileFinder(source.parent_path()), Location(preset.source)))
+                     scatter::find_dispersion(index.file, FileFinder(source.parent_path()), Location(preset.source)))
                      .string();
   return index;
 }
@@ -137,7 +137,7 @@ preset::Dispersion dispersion_of(const preset::Preset& preset) {
 std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset) {
   const preset::LightSpectrum spectrum = settings(preset).light.spectrum.value_or(preset::LightSpectrum{});
   // The luminance without its factor.
-  const double luminous_part = optics::to_xyz(scene::make_light_spectrum(spectrum, Location(preset.source)))[1];
+  const double luminous_part = optics::to_xyz(scatter::make_light_spectrum(spectrum, Location(preset.source)))[1];
   double brightest = 0; // over light that is spread evenly
   for (const Target& target : targets) brightest = std::max(brightest, *std::max_element(target.begin(), target.end()));
   brightest *= static_cast<double>(layout.cell_count());

@@ -3,7 +3,7 @@
 
 #include "inverse/settings.h"
 #include "optics/colour.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 
 #include <fmt/format.h>
 
@@ -84,12 +84,12 @@ Refraction make_refraction(const preset::Preset& preset) {
   const Location own = Location(preset.source) / "inverse";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const bool is_coloured = s.light.spectrum.has_value();
-  const Index index{scene::make_curve(s.index, finder, own / "index"), scene::outside_policy(s.index.outside),
+  const Index index{scatter::make_curve(s.index, finder, own / "index"), scatter::outside_policy(s.index.outside),
                     own / "index",
                     is_coloured ? "expected one for all wavelengths of light.spectrum"
                                 : "expected another wavelength_nm or a narrower band_nm"};
   const std::vector<LightPart> parts =
-      is_coloured ? coloured(scene::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index)
+      is_coloured ? coloured(scatter::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index)
                   : band(s, index);
   if (!is_coloured && std::ranges::all_of(parts, [&](const LightPart& part) { return part.n == parts.front().n; }))
     return {parts.front().n, std::nullopt};

@@ -47,7 +47,7 @@ LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer) {
 BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread,
                                int first_preview_edge)
     : first_{scene.camera.width, scene.camera.height, first_preview_edge},
-      in_pixels_(any_material(scene, scene::has_pictures)) {
+      in_pixels_(any_material(scene, scatter::has_pictures)) {
   const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
   for (Blocks blocks{first_.width, first_.height, first_preview_edge > 1 ? 2 * first_preview_edge : 1}; blocks.edge > 0;
        blocks.edge /= 2)

@@ -25,7 +25,7 @@ private:
 plan::Decision direct_decision(const PlanInput& input) {
   const char* const name = "direct";
   if (!input.settings.direct) return not_asked_for(name, name);
-  const bool shines = input.objects.diffuse > 0 || any_material(input.scene, scene::is_rough);
+  const bool shines = input.objects.diffuse > 0 || any_material(input.scene, scatter::is_rough);
   const std::string missing = shines ? no_light(input) : "the scene has no diffuse or rough surface";
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.direct, missing);
   return tracing::needed(

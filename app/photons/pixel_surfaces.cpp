@@ -19,8 +19,6 @@ namespace {
 
 constexpr std::size_t middle = optics::wavelength_count / 2;
 
-using Type = scene::Material::Type;
-
 struct SurfaceHit {
   int object;
   glm::dvec3 position, geometric, shading; ///< outward unit normals; alike unless the object is smooth
@@ -231,22 +229,22 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
     const std::optional<SurfaceHit> hit = ray.next();
     if (!hit) break;
     const scene::Object& object = scene.objects[static_cast<std::size_t>(hit->object)];
-    const scene::Material& material = material_of(scene, object);
-    const Type type = material.type;
+    const scatter::Material& material = material_of(scene, object);
+    const bool matt = is_matt(material.type);
     const glm::dvec3 arrives = ray.way();
-    if (is_refractive(type)) {
+    if (is_refractive(material.type)) {
       const bool bends = !material.thin && ray.cross(*hit); // most of the light passes a pane
       if (!bends && !is_textured(material)) continue;
-    } else if (!is_matt(type))
+    } else if (!matt)
       ray.reflect(*hit);
     const bool is_first = surfaces.first.object < 0;
-    if (is_first || is_matt(type)) {
+    if (is_first || matt) {
       surfaces.last = {glm::vec3(hit->position), glm::vec3(hit->geometric), hit->object, hit->primitive};
       surfaces.way = glm::vec3(arrives);
       surfaces.spacing = static_cast<float>(spacing * (camera.orthographic ? 1 : ray.length()));
     }
     if (is_first) surfaces.first = surfaces.last;
-    if (is_matt(type)) break;
+    if (matt) break;
   }
   return surfaces;
 }

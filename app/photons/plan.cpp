@@ -110,8 +110,7 @@ plan::Decision low_discrepancy_decision(const Settings& settings) {
 bool glass_meets_glass(const scene::Scene& scene) {
   std::vector<scene::Sphere> bodies;
   for (const scene::Object& object : scene.objects)
-    if (preset::is_specular(scene.materials[static_cast<std::size_t>(object.material)].type))
-      bodies.push_back(object.bounds);
+    if (is_specular(material_of(scene, object).type)) bodies.push_back(object.bounds);
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (glm::distance(bodies[i].centre, bodies[j].centre) < bodies[i].radius + bodies[j].radius) return true;
@@ -122,10 +121,10 @@ bool glass_meets_glass(const scene::Scene& scene) {
 /// colour, and a texture many. What a coating reflects, or passes a texture of glass, is worked out for one wavelength,
 /// and the others of its cluster are treated otherwise.
 void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
-  if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scene::is_rough))
+  if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scatter::is_rough))
     throw bad_input(spectral / "estimator", "is tiles, and a rough surface scatters the corners of each",
                     "expected points, splat or sppm", "or set its roughness to 0");
-  if (any_material(scene, scene::is_plastic)) {
+  if (any_material(scene, scatter::has_coat)) {
     if (wanted.estimator == Settings::Estimator::tiles)
       throw bad_input(spectral / "estimator", "is tiles, which end at matt surfaces, and one is of plastic",
                       "expected points, splat or sppm", "or make it diffuse");
@@ -134,7 +133,7 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
                       "keeps layers of what surfaces scatter, and one is of plastic, which reflects", "expected false",
                       "or make it diffuse");
   }
-  if (any_material(scene, scene::has_pictures)) {
+  if (any_material(scene, scatter::has_pictures)) {
     if (wanted.estimator == Settings::Estimator::tiles)
       throw bad_input(spectral / "estimator", "is tiles, each of one colour, and a surface has a texture",
                       "expected points, splat or sppm", "or take the texture away");
@@ -148,8 +147,8 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
   if (wanted.relight && std::ranges::any_of(scene.lights, is_seen))
     throw bad_input(spectral / "relight", "keeps layers of what surfaces scatter, and an object shines itself",
                     "expected false", "or take an area light in its place");
-  if (!any_material(scene, scene::parts_wavelengths)) return;
-  const char* const what = any_material(scene, scene::is_coated) ? "coating" : "texture of glass";
+  if (!any_material(scene, scatter::parts_wavelengths)) return;
+  const char* const what = any_material(scene, scatter::is_coated) ? "coating" : "texture of glass";
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)
       throw bad_input(spectral / field, fmt::format("sends wavelengths of a cluster together, which a {} parts", what),
@@ -175,11 +174,11 @@ void refuse_what_cameras_cannot(const Settings& wanted, const scene::Scene& scen
 /// Why photons are points; empty where tiles have less error (docs/notebook/tiles.md).
 std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
-  if (any_material(scene, scene::is_coated)) return "a coating reflects each wavelength otherwise";
+  if (any_material(scene, scatter::is_coated)) return "a coating reflects each wavelength otherwise";
   if (!scene.camera.is_plain()) return "a camera with a lens, a shift or parallel rays sees points only";
-  if (any_material(scene, scene::is_rough)) return "a rough surface scatters the corners of a tile";
-  if (any_material(scene, scene::is_plastic)) return "plastic reflects a part of the light, which tiles do not follow";
-  if (any_material(scene, scene::has_pictures)) return "a tile has one colour, and a texture many";
+  if (any_material(scene, scatter::is_rough)) return "a rough surface scatters the corners of a tile";
+  if (any_material(scene, scatter::has_coat)) return "plastic reflects a part of the light, which tiles do not follow";
+  if (any_material(scene, scatter::has_pictures)) return "a tile has one colour, and a texture many";
   if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
       !wanted.jitter || !wanted.low_discrepancy)
     return "spectral.method, effort, jitter or low_discrepancy ask for points";
@@ -193,8 +192,7 @@ std::string why_points(const Settings& wanted, const scene::Scene& scene) {
   constexpr std::uint32_t most_facets = 40, most_smooth = 4096;
   std::uint32_t facets = 0, smooth = 0; // triangles of glass
   for (const scene::Object& object : scene.objects)
-    if (preset::is_specular(scene.materials[static_cast<std::size_t>(object.material)].type))
-      (object.smooth ? smooth : facets) += object.triangle_count;
+    if (is_specular(material_of(scene, object).type)) (object.smooth ? smooth : facets) += object.triangle_count;
   if (facets > most_facets || smooth > most_smooth)
     return fmt::format("glass has {}: a cell would meet several at once", counted(facets + smooth, "triangle"));
   return "";
@@ -215,8 +213,9 @@ plan::Decision differentials_decision(const PlanInput& input) {
   const bool tiles = input.settings.estimator == Settings::Estimator::tiles;
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
-  if (any_material(input.scene, scene::is_coated)) return {name, false, "a coating reflects each wavelength otherwise"};
-  if (any_material(input.scene, scene::has_tint_texture))
+  if (any_material(input.scene, scatter::is_coated))
+    return {name, false, "a coating reflects each wavelength otherwise"};
+  if (any_material(input.scene, scatter::has_tint_texture))
     return {name, false, "a texture of glass passes each wavelength otherwise"};
   if (along == tracing::StretchParameter::none)
     return {name, false, "no glass bends one wavelength otherwise than another"};
@@ -344,7 +343,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   plan.picture_bytes_a_pixel = plan.runs(smoothing_part) ? 120 : 48; // what is smoothed; a film of two halves read back
   if (layers.empty())
     plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.decisions[0].reason));
-  if (settings.relight && any_material(scene, scene::is_rough))
+  if (settings.relight && any_material(scene, scatter::is_rough))
     plan.notes.push_back("layers have no highlights of lamps on rough surfaces: what these throw is there");
   plan.notes.insert(plan.notes.begin(), scene.warnings.begin(), scene.warnings.end());
   return plan;

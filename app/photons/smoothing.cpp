@@ -325,16 +325,16 @@ void Smoothing::find_surfaces() {
           surfaces_of_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
   const std::vector<bool> pulled = are_near_pulled(pixels, width_, height_);
-  const auto is_so = [&](int object, bool (*is)(const scene::Material&)) {
+  const auto is_so = [&](int object, bool (*is)(const scatter::Material&)) {
     return object >= 0 && is(material_of(view->scene, view->scene.objects[static_cast<std::size_t>(object)]));
   };
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto& [first, last, way, spacing] = pixels[i];
     // What a rough surface shows has no outlines and no texture left, but for its own.
-    const bool is_rough = is_so(first.object, scene::is_rough),
-               has_detail = (is_so(last.object, scene::has_pictures) && !is_rough) ||
-                            is_so(first.object, scene::has_rough_texture) ||
-                            is_so(first.object, scene::has_tint_texture);
+    const bool is_rough = is_so(first.object, scatter::is_rough),
+               has_detail = (is_so(last.object, scatter::has_pictures) && !is_rough) ||
+                            is_so(first.object, scatter::has_rough_texture) ||
+                            is_so(first.object, scatter::has_tint_texture);
     seen[i] = {pulled[i] || is_rough ? first : last, has_detail ? -1 : first.object};
   }
   std::vector<bool> is_lamp(view->scene.objects.size());

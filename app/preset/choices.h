@@ -46,13 +46,13 @@ inline constexpr Choice<Texture::Wrap> choices<Texture::Wrap>[] = {
     {Texture::Wrap::mirror, "mirror", "The picture again, every second one mirrored."},
     {Texture::Wrap::clamp, "clamp", "The colour at the edge."}};
 
+/// What the material's own file says, app/scatter/NAME.cpp.
+std::string_view sentence_of(Material::Type type);
+
+#define NEPHROID_MATERIAL_CHOICE(word, NAME, lobes) {Material::Type::word, #word, sentence_of(Material::Type::word)},
 template <>
-inline constexpr Choice<Material::Type> choices<Material::Type>[] = {
-    {Material::Type::diffuse, "diffuse", "Scatters light equally to all sides (Lambert): what caustics fall on."},
-    {Material::Type::dielectric, "dielectric", "Glass, water, diamond: refracts and reflects."},
-    {Material::Type::mirror, "mirror", "Reflects a part of the light that does not depend on the angle."},
-    {Material::Type::conductor, "conductor", "Metal, by its measured n and k."},
-    {Material::Type::plastic, "plastic", "A diffuse base below a clear coat: plastic, varnished wood, glazed tiles."}};
+inline const Choice<Material::Type> choices<Material::Type>[] = {MATERIALS(NEPHROID_MATERIAL_CHOICE)};
+#undef NEPHROID_MATERIAL_CHOICE
 
 template <>
 inline constexpr Choice<Shape::Type> choices<Shape::Type>[] = {

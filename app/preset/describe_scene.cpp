@@ -103,43 +103,6 @@ void describe(Fields& v, Coating& c) {
           {.unit = "nm", .bounds = within(0, 20000), .required = true});
 }
 
-void describe(Fields& v, Material& m) {
-  v.about("Material", "What a surface does with light.");
-  using Type = Material::Type;
-  v.type("type", "What kind of surface.", m.type);
-  if (m.type == Type::dielectric)
-    v.field("dispersion", "Index of refraction: a number, a file or an object.", m.dispersion, {.required = true});
-  if (m.type == Type::plastic)
-    v.field("dispersion", "The coat's index of refraction, in air at 588 nm: a number, a file or an object.",
-            m.dispersion);
-  if (m.type == Type::conductor)
-    v.field("metal", "gold, silver, copper, aluminium, brass, or a YAML file of refractiveindex.info with n and k.",
-            m.metal, {.text = Text::file, .names = Names::metal});
-  if (is_matt(m.type) || m.type == Type::mirror)
-    v.field("reflectance", "Part of the light that is reflected: a number, a ColorChecker patch or an object.",
-            m.reflectance);
-  if (is_matt(m.type))
-    v.field("texture", "What the reflectance is multiplied by: a picture file or an object.", m.texture);
-  if (is_specular(m.type))
-    v.field("roughness", "0 is polished; GGX with alpha = roughness^2.", m.roughness, {.bounds = within(0, 1)});
-  if (is_specular(m.type) && m.type != Type::plastic)
-    v.field("roughness_texture",
-            "What the roughness is multiplied by: green of a picture file or an object. Integers are plain numbers.",
-            m.roughness_texture);
-  if (m.type == Type::diffuse) {
-    v.field("normal_map", "Normals as glTF has them: red, green, blue, plain numbers, are (1 + x, y, z) / 2.",
-            m.normal_map);
-    v.field("normal_scale", "Factor of the x and y of the normal map.", m.normal_scale, {.bounds = within(-100, 100)});
-  }
-  if (m.type != Type::dielectric) return;
-  v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
-  v.field("tint", "Part of the light that passes the surface, each time: a number, a ColorChecker patch or an object.",
-          m.tint);
-  v.field("tint_texture", "What the tint is multiplied by: a picture file or an object.", m.tint_texture);
-  v.field("thin", "A pane without thickness: light goes straight on, or is reflected by both faces together.", m.thin);
-  v.field("coating", "A thin layer on the surface, such as an anti-reflection coat or a soap film.", m.coating);
-}
-
 void describe(Fields& v, Transform& t) {
   v.about("Transform", "Scale, then rotate (about x, then y, then z), then translate.");
   v.field("scale", "Factors along x, y and z; not 0, negative ones mirror.", t.scale, {.bounds = within(-1e6, 1e6)});

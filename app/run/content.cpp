@@ -4,7 +4,7 @@
 #include "base/hashed_bytes.h"
 #include "engine/engine.h"
 #include "preset/read.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/mesh.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::uint64_t hash_of_file(const fs::path& file) {
 
 std::string content_of(const std::string& name, const FileFinder& finder) {
   try {
-    return fmt::format("{:016x}", hash_of_file(scene::find_dispersion(name, finder, {})));
+    return fmt::format("{:016x}", hash_of_file(scatter::find_dispersion(name, finder, {})));
   } catch (const Error&) {
     return {}; // whoever needs the file will say so
   }

@@ -3,7 +3,7 @@
 
 #include "optics/colour.h"
 #include "preset/settings_type.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ image::Display display_of(const preset::Preset& preset) {
   display.tone = preset.display.tone;
   if (preset.display.white_balance == preset::Display::WhiteBalance::d65) return display;
   const Location where = Location(preset.source) / "scene" / "lights" / 0 / "spectrum";
-  const optics::Colour white = optics::to_xyz(scene::make_light_spectrum(preset.scene.lights.at(0).spectrum, where)),
+  const optics::Colour white = optics::to_xyz(scatter::make_light_spectrum(preset.scene.lights.at(0).spectrum, where)),
                        rgb = optics::xyz_to_linear_srgb(white);
   if (std::ranges::min(rgb) < -0.04 * std::ranges::max(rgb)) // a laser's, a sodium lamp's: the balance would be absurd
     throw bad_input(Location(preset.source) / "display" / "white_balance",

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "image/image.h"
 #include "optics/colour.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/object_mesh.h"
 
 #include <fmt/format.h>
@@ -83,7 +83,7 @@ std::shared_ptr<const Photometry> shared_photometry(const Scene& scene, const st
 /// Its luminance. A note of what is clipped goes to warnings.
 std::shared_ptr<const LightPicture> load_light_picture(const std::filesystem::path& file,
                                                        std::vector<std::string>& warnings) {
-  const image::Image image = read_texels(file);
+  const image::Image image = scatter::read_texels(file);
   const image::Rgb colours = image::rgb_of(image, file.string());
   LightPicture picture{image.width, image.height, {}};
   double most = 0;
@@ -181,7 +181,7 @@ Light make_light(const preset::Light& light, const Scene& scene, const FileFinde
   using Type = preset::Light::Type;
   Light result;
   result.type = light.type;
-  result.spectrum = make_light_spectrum(light.spectrum, where / "spectrum");
+  result.spectrum = scatter::make_light_spectrum(light.spectrum, where / "spectrum");
   if (light.type == Type::mesh) {
     set_mesh(light, scene, where / "object", result);
     return result;

@@ -8,7 +8,7 @@
 #include "scene/heights.h"
 
 #include "base/parallel.h"
-#include "scene/texture.h"
+#include "scatter/texture.h"
 
 #include <fmt/format.h>
 
@@ -266,7 +266,8 @@ Mesh make_relief(const preset::Shape& relief, const FileFinder& finder, const Lo
   preset::Texture texture;
   texture.file = relief.picture;
   texture.wrap = preset::Texture::Wrap::clamp;
-  const Texture picture = make_texture(texture, Texels::numbers, finder, where / "picture", label, warnings);
+  const scatter::Texture picture =
+      scatter::make_texture(texture, scatter::Texels::numbers, finder, where / "picture", label, warnings);
   Grid grid(relief.size, relief.segments);
   const auto texel = [&](int x, int y) {
     x = std::clamp(x, 0, picture.width - 1);

@@ -4,7 +4,6 @@
 #include "scene/scene.h"
 
 #include "scene/heights.h"
-#include "scene/materials.h"
 #include "scene/move.h"
 #include "scene/object_mesh.h"
 #include "scene/states.h"
@@ -80,7 +79,7 @@ void tell_damages(Scene& scene, const std::vector<Damage>& damages, preset::Scen
 void add_object(Scene& scene, const preset::Object& object, const Pending& pending,
                 preset::Scene::DamagedMeshes damaged) {
   const std::string label = label_of(object, scene.objects.size());
-  const Material& material = scene.materials[static_cast<std::size_t>(pending.material)];
+  const scatter::Material& material = scene.materials[static_cast<std::size_t>(pending.material)];
   const bool dielectric = is_body(material);
   PlacedMesh placed = place(*pending.mesh, pending.placement, pending.bounds, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
@@ -172,7 +171,7 @@ double scene_radius(const Scene& scene) {
   return radius;
 }
 
-bool any_material(const Scene& scene, bool (*is)(const Material&)) {
+bool any_material(const Scene& scene, bool (*is)(const scatter::Material&)) {
   return std::ranges::any_of(scene.objects, [&](const Object& object) { return is(material_of(scene, object)); });
 }
 
@@ -203,7 +202,8 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   scene.source = preset.source;
   scene.metres_per_unit = preset::metres(preset.unit);
   for (const auto& [name, material] : preset.scene.materials)
-    scene.materials.push_back(make_material(name, material, finder, where / "materials" / name, scene.warnings));
+    scene.materials.push_back(
+        scatter::make_material(name, material, finder, where / "materials" / name, scene.warnings));
 
   check_names(preset.scene.objects, where / "objects");
   // Each file is read once, however many objects name it and however large it is.
@@ -225,7 +225,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     const preset::Object& object = preset.scene.objects[i];
     const Location object_where = where / "objects" / i;
     const auto material =
-        std::ranges::find(scene.materials, object.material, &Material::name) - scene.materials.begin();
+        std::ranges::find(scene.materials, object.material, &scatter::Material::name) - scene.materials.begin();
     const std::shared_ptr<const Mesh> mesh = mesh_of(object, i);
     const Placement placement = make_placement(object.transform, *mesh);
     pending.push_back(

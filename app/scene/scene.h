@@ -4,13 +4,11 @@
 // which keeps single precision good far from the preset's own origin.
 #pragma once
 #include "base/location.h"
-#include "optics/coat.h"
-#include "optics/conductor.h"
 #include "preset/preset.h"
+#include "scatter/material.h"
 #include "scene/environment.h"
 #include "scene/mesh.h"
 #include "scene/photometry.h"
-#include "scene/texture.h"
 
 #include <limits>
 #include <memory>
@@ -27,53 +25,6 @@ struct Bounds {
 
 Bounds enclosing(const Bounds& a, const Bounds& b);
 Bounds bounds_of(const Ellipsoid& ellipsoid);
-
-struct Material {
-  using Type = preset::Material::Type;
-  std::string name;
-  Type type = Type::diffuse;
-  optics::Spectrum n{};                   ///< dielectric, conductor
-  optics::Spectrum k{};                   ///< conductor; dielectric: all zero where it does not absorb
-  bool absorbs = false;                   ///< dielectric
-  optics::Spectrum reflectance{};         ///< diffuse, mirror, plastic's base; conductor: at normal incidence in air
-  std::shared_ptr<const Texture> texture; ///< what its reflectance or, of a dielectric, tint is multiplied by; null: 1
-  std::shared_ptr<const Texture> roughness_texture; ///< whose green its roughness is multiplied by; null: 1
-  std::shared_ptr<const Texture> normal_map;        ///< diffuse: (1 + normal) / 2, of any length; null: none
-  optics::ConductorTerms conductor;                 ///< conductor
-  double coat_n = 1;                                ///< plastic: index of refraction of its coat
-  optics::Coat coat;                                ///< plastic
-  optics::Spectrum tint{};                          ///< dielectric: the part that passes its surface
-  bool thin = false;                                ///< dielectric: a pane without thickness
-  double alpha = 0;                                 ///< of GGX, where no texture makes it less; 0: polished
-  double coating_nm = 0;                            ///< dielectric: thickness of its coating; 0: none
-  optics::Spectrum coating_n{};
-};
-
-/// Whether an object of it is a body that fills space, which light is inside or outside of.
-inline bool is_body(const Material& material) { return is_refractive(material.type) && !material.thin; }
-
-inline bool is_rough(const Material& material) { return material.alpha > 0; }
-
-inline bool is_plastic(const Material& material) { return material.type == Material::Type::plastic; }
-
-inline bool is_textured(const Material& material) { return material.texture != nullptr; }
-
-inline bool has_rough_texture(const Material& material) { return material.roughness_texture != nullptr; }
-
-inline bool has_normal_map(const Material& material) { return material.normal_map != nullptr; }
-
-/// Whether glass has a texture of its tint.
-inline bool has_tint_texture(const Material& material) { return is_refractive(material.type) && is_textured(material); }
-
-/// Whether it looks up places by u, v.
-inline bool has_pictures(const Material& material) {
-  return is_textured(material) || has_rough_texture(material) || has_normal_map(material);
-}
-
-inline bool is_coated(const Material& material) { return material.coating_nm > 0; }
-
-/// Whether its surface parts the wavelengths of a cluster even where n does not, so that a path has to have one.
-inline bool parts_wavelengths(const Material& material) { return is_coated(material) || has_tint_texture(material); }
 
 /// How much light the places of a rectangle send.
 struct LightPicture {
@@ -162,7 +113,7 @@ struct Scene {
   double metres_per_unit = 1;
   glm::dvec3 origin{0}; ///< preset coordinates of the scene's (0, 0, 0)
   Camera camera;
-  std::vector<Material> materials;
+  std::vector<scatter::Material> materials;
   std::vector<Object> objects;
   std::vector<Light> lights; ///< the preset's; after them the sun of a sky, then the environment, where they are
   std::optional<Environment> environment;
@@ -174,12 +125,12 @@ struct Scene {
 
 inline bool is_empty(const Object& object) { return object.triangle_count + object.ellipsoid_count == 0; }
 
-inline const Material& material_of(const Scene& scene, const Object& object) {
+inline const scatter::Material& material_of(const Scene& scene, const Object& object) {
   return scene.materials[static_cast<std::size_t>(object.material)];
 }
 
 /// Whether the material of any object is so.
-bool any_material(const Scene& scene, bool (*is)(const Material&));
+bool any_material(const Scene& scene, bool (*is)(const scatter::Material&));
 
 /// Reads every file and checks every reference. A scene without lights or objects is legal: the plan says what is left
 /// out then. Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; triangles

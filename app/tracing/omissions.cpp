@@ -21,22 +21,7 @@ namespace {
 
 using optics::wavelength_count;
 
-constexpr unsigned all_light_types = (1u << LIGHT_TYPE_COUNT) - 1;
-
-bool is_conductor(const scene::Material& material) { return material.type == scene::Material::Type::conductor; }
-bool is_pane(const scene::Material& material) { return material.thin; }
-bool is_tinted(const scene::Material& material) {
-  return is_refractive(material.type) && (is_textured(material) || !loss_at_surface(material).empty());
-}
-
-/// Whether the glass of any object has an index other than 1.
-bool anything_bends(const scene::Scene& scene) {
-  return std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
-    const scene::Material& material = material_of(scene, object);
-    return is_coated(material) ||
-           (is_refractive(material.type) && std::ranges::any_of(material.n, [](double value) { return value != 1; }));
-  });
-}
+constexpr unsigned all_material_types = (1u << MATERIAL_TYPE_COUNT) - 1, all_light_types = (1u << LIGHT_TYPE_COUNT) - 1;
 
 /// False only where all of the object is beyond one side of a plain camera's pyramid, or behind the camera.
 bool may_be_in_view(const scene::Scene& scene, const scene::Object& object) {
@@ -79,6 +64,14 @@ bool nothing_blocks_the_view(const scene::Scene& scene) {
   return true;
 }
 
+/// Types of material that objects have.
+unsigned material_type_bits(const scene::Scene& scene) {
+  unsigned bits = 0;
+  for (const scene::Object& object : scene.objects)
+    bits |= 1u << static_cast<unsigned>(material_of(scene, object).type); // both are of the list MATERIALS
+  return bits;
+}
+
 /// Types of light that the scene has.
 unsigned light_type_bits(const scene::Scene& scene) {
   unsigned bits = 0;
@@ -116,10 +109,9 @@ std::vector<bool> lit_wavelengths(const scene::Scene& scene) {
 ObjectCounts count_objects(const scene::Scene& scene) {
   ObjectCounts counts;
   for (const scene::Object& object : scene.objects) {
-    const scene::Material::Type type = material_of(scene, object).type;
-    counts.dielectrics += is_refractive(type);
-    counts.mirrors += is_specular(type) && !is_refractive(type) && !is_matt(type);
-    counts.plastics += type == scene::Material::Type::plastic;
+    const scatter::Material::Type type = material_of(scene, object).type;
+    counts.specular += is_specular(type);
+    counts.mirrors += lobes(type) == LOBE_REFLECTION;
     counts.diffuse += is_matt(type);
     counts.smooth += object.smooth;
   }
@@ -128,9 +120,8 @@ ObjectCounts count_objects(const scene::Scene& scene) {
 
 bool goes_one_way(const scene::Scene& scene) {
   return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
-    const scene::Material& material = material_of(scene, object);
-    const auto same = [&](double n) { return n == material.n.front(); };
-    return parts_wavelengths(material) || (is_refractive(material.type) && !std::ranges::all_of(material.n, same));
+    const scatter::Material& material = material_of(scene, object);
+    return parts_wavelengths(material) || disperses(material);
   });
 }
 
@@ -176,7 +167,9 @@ std::vector<plan::Decision> data_omissions(const LeaveOut& leave_out, const scen
 CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators) {
   const ObjectCounts counts = count_objects(scene);
   const unsigned types = light_type_bits(scene);
-  const bool bends = anything_bends(scene), blocked = !nothing_blocks_the_view(scene);
+  const auto any = [&](bool (*is)(const scatter::Material&)) { return any_material(scene, is); };
+  const bool bends = any(scatter::bends), blocked = !nothing_blocks_the_view(scene);
+  const unsigned materials = leave_out.mirrors ? material_type_bits(scene) : all_material_types;
   CodeOmissions omissions;
   // Adds a row, and returns whether its code is compiled.
   const auto has = [&](plan::Decision decision) {
@@ -189,8 +182,8 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const std::string seen_types = light_types_reason(types);
   const bool every_type = has(types == all_light_types ? needed("light types", seen_types)
                                                        : not_needed("light types", leave_out.light_types, seen_types));
-  const bool mirrors = has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror object"))
-                                              : not_needed("mirrors", leave_out.mirrors, "no object is a mirror"));
+  has(counts.mirrors > 0 ? needed("mirrors", counted(counts.mirrors, "mirror object"))
+                         : not_needed("mirrors", leave_out.mirrors, "no object is a mirror"));
   const bool bending =
       has(bends ? needed("bending", "glass has another n than its surroundings, or a coating")
                 : not_needed("bending", leave_out.bending, "no glass has another n than 1, and none a coating"));
@@ -198,9 +191,8 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       attenuators > 0
           ? needed("attenuation", counted(attenuators, "loss", "losses") + " by wavelength, in glass and at surfaces")
           : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no surface is coloured"));
-  const auto any = [&](bool (*is)(const scene::Material&)) { return any_material(scene, is); };
   const bool smooth = has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
-                          : any(scene::has_normal_map)
+                          : any(scatter::has_normal_map)
                               ? needed("smooth normals", "a surface has a normal map")
                               : not_needed("smooth normals", leave_out.smooth_normals, "no mesh has smooth normals"));
   const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
@@ -208,20 +200,18 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_OCCLUSION", flag(occlusion)},
       {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types_in_kernels(types))},
       {"NEPHROID_DISCS", flag(std::ranges::any_of(scene.lights, scene::has_disc) || !leave_out.light_types)},
-      {"NEPHROID_MIRRORS", flag(mirrors)},
-      {"NEPHROID_CONDUCTORS", flag(any(is_conductor) || !leave_out.mirrors)},
+      {"NEPHROID_MATERIALS", std::to_string(materials)},
       {"NEPHROID_BENDING", flag(bending)},
-      {"NEPHROID_PANES", flag(any(is_pane) || !leave_out.bending)},
-      {"NEPHROID_COATINGS", flag(any(scene::is_coated) || !leave_out.bending)},
-      {"NEPHROID_ROUGH", flag(any(scene::is_rough) || !leave_out.bending)},
-      {"NEPHROID_PLASTICS", flag(any(scene::is_plastic))},
+      {"NEPHROID_PANES", flag(any(scatter::is_thin) || !leave_out.bending)},
+      {"NEPHROID_COATINGS", flag(any(scatter::is_coated) || !leave_out.bending)},
+      {"NEPHROID_ROUGH", flag(any(scatter::is_rough) || !leave_out.bending)},
       {"NEPHROID_LIGHT_PICTURES", flag(std::ranges::any_of(scene.lights, has_picture))},
       {"NEPHROID_PHOTOMETRY", flag(std::ranges::any_of(scene.lights, has_photometry))},
-      {"NEPHROID_TEXTURES", flag(any(scene::has_pictures))},
-      {"NEPHROID_ROUGHNESS_TEXTURES", flag(any(scene::has_rough_texture))},
-      {"NEPHROID_TINT_TEXTURES", flag(any(scene::has_tint_texture))},
-      {"NEPHROID_NORMAL_MAPS", flag(any(scene::has_normal_map))},
-      {"NEPHROID_TINTS", flag(any(is_tinted) || !leave_out.attenuation)},
+      {"NEPHROID_TEXTURES", flag(any(scatter::has_pictures))},
+      {"NEPHROID_ROUGHNESS_TEXTURES", flag(any(scatter::has_rough_texture))},
+      {"NEPHROID_TINT_TEXTURES", flag(any(scatter::has_tint_texture))},
+      {"NEPHROID_NORMAL_MAPS", flag(any(scatter::has_normal_map))},
+      {"NEPHROID_TINTS", flag(any(scatter::is_tinted) || !leave_out.attenuation)},
       // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
       {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
       {"NEPHROID_SMOOTH", flag(smooth)},

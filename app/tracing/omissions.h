@@ -14,10 +14,10 @@ bool has_power(const scene::Light& light);
 /// [401]: whether any light with power has the wavelength; true for all where no light has power.
 std::vector<bool> lit_wavelengths(const scene::Scene& scene);
 
-/// A plastic one is diffuse, too.
+/// By the lobes of their materials: one may be specular and diffuse. A mirror is specular alone, and no light passes.
 struct ObjectCounts {
-  int dielectrics = 0, mirrors = 0, plastics = 0, diffuse = 0, smooth = 0;
-  bool throw_caustics() const { return dielectrics + mirrors + plastics > 0; }
+  int specular = 0, mirrors = 0, diffuse = 0, smooth = 0;
+  bool throw_caustics() const { return specular > 0; }
 };
 ObjectCounts count_objects(const scene::Scene& scene);
 

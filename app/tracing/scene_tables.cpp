@@ -145,7 +145,7 @@ TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<D
                 WRAP_MIRROR == int(preset::Texture::Wrap::mirror) && WRAP_CLAMP == int(preset::Texture::Wrap::clamp));
   TextureTables tables;
   std::map<const void*, std::uint32_t> first_of; // of each picture's texels
-  const auto add = [&](const scene::Texture& from) {
+  const auto add = [&](const scatter::Texture& from) {
     const auto place = [&](int axis) {
       return std::array{static_cast<float>(from.linear[0][axis]), static_cast<float>(from.linear[1][axis]),
                         static_cast<float>(from.offset[axis])};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/wavelength_tables.h"
 
-#include "optics/primary_reflectances.h"
 #include "optics/spectrum.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
@@ -9,8 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
-#include <span>
+#include <utility>
 
 namespace nephroid::tracing {
 namespace {
@@ -20,8 +18,6 @@ using optics::wavelength_count;
 
 static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
 
-using MaterialType = scene::Material::Type;
-
 float4 to_float4(const glm::dvec4& v) { return tracing::to_float4(glm::dvec3(v), v.w); }
 
 std::vector<bool> used_materials(const scene::Scene& scene) {
@@ -29,111 +25,6 @@ std::vector<bool> used_materials(const scene::Scene& scene) {
   for (const scene::Object& object : scene.objects) used[static_cast<std::size_t>(object.material)] = true;
   return used;
 }
-
-/// The coefficient of a mirror that reflects nothing: exp(-200) is 0 in single precision.
-constexpr double blackest = 200;
-
-/// Adds a row of losses and returns its number; -1 for none.
-int add_loss(WavelengthTables& tables, std::span<const double> coefficients) {
-  if (coefficients.empty()) return -1;
-  for (const double a : coefficients) tables.coefficient.push_back(static_cast<float>(a));
-  return tables.attenuator_count++;
-}
-
-/// Adds the rows of a metal's terms and returns the first one's number.
-int add_conductor(WavelengthTables& tables, const scene::Material& metal) {
-  static_assert(CONDUCTOR_TERMS == optics::conductor_term_count);
-  const int first = tables.attenuator_count;
-  for (std::size_t j = 0; j < CONDUCTOR_TERMS; ++j) {
-    const std::size_t w = metal.conductor.wavelengths[j];
-    for (const double value : {metal.n[w], metal.k[w]}) tables.surface_data.push_back(static_cast<float>(value));
-    add_loss(tables, metal.conductor.coefficients[j]);
-  }
-  return first;
-}
-
-/// Adds a row of reflectances and returns its number.
-int add_reflector(WavelengthTables& tables, const Spectrum& reflectance) {
-  tables.reflectance.insert(tables.reflectance.end(), reflectance.begin(), reflectance.end());
-  return tables.reflector_count++;
-}
-
-/// Adds the rows of a surface that a texture may lie on, and returns the first one's number. factor: of its colour.
-int add_colour(WavelengthTables& tables, Spectrum colour, double factor, bool is_textured) {
-  for (double& part : colour) part *= factor;
-  const int first = add_reflector(tables, colour);
-  if (!is_textured) return first;
-  for (Spectrum primary : optics::primary_reflectances()) {
-    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] *= colour[w];
-    add_reflector(tables, primary);
-  }
-  return first;
-}
-
-/// Adds what the table surface_data has of a coat.
-void add_coat(WavelengthTables& tables, const scene::Material& plastic) {
-  static_assert(COAT_COSINES == optics::coat_cosines && COAT_MEAN == 1 && COAT_PARTS == 2);
-  for (const double value : {plastic.coat_n, plastic.coat.mean})
-    tables.surface_data.push_back(static_cast<float>(value));
-  for (const double part : plastic.coat.passes) tables.surface_data.push_back(static_cast<float>(part));
-}
-
-/// The row of what roughness and coats take, which all materials share.
-int masking_row(WavelengthTables& tables, std::span<const shared::DeviceMaterial> before) {
-  for (const shared::DeviceMaterial& material : before)
-    if (material.masking >= 0) return material.masking;
-  return add_loss(tables, optics::constant_spectrum(1));
-}
-
-/// The rows of each material that an object uses.
-void add_material_rows(const scene::Scene& scene, WavelengthTables& tables,
-                       std::vector<shared::DeviceMaterial>& materials) {
-  const std::vector<bool> used = used_materials(scene);
-  materials.assign(scene.materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1, -1, -1, -1});
-  int textures = 0;
-  const auto number = [&](const std::shared_ptr<const scene::Texture>& texture) { return texture ? textures++ : -1; };
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const scene::Material& material = scene.materials[i];
-    shared::DeviceMaterial& row = materials[i];
-    row.type = static_cast<int>(material.type); // both are of the list MATERIALS
-    if (!used[i]) continue;
-    row.alpha = static_cast<float>(material.alpha);
-    row.texture = number(material.texture); // in the order of make_texture_tables
-    row.roughness_texture = number(material.roughness_texture);
-    row.normal_map = number(material.normal_map);
-    if (is_rough(material) || is_plastic(material) || has_tint_texture(material))
-      row.masking = masking_row(tables, {materials.data(), i});
-    const int surface_first = static_cast<int>(tables.surface_data.size());
-    switch (material.type) {
-    case MaterialType::diffuse:
-      row.reflector = add_colour(tables, material.reflectance, 1, is_textured(material));
-      break;
-    case MaterialType::plastic:
-      row.reflector = add_colour(tables, material.reflectance, 1 / material.coat.mean, is_textured(material));
-      row.surface_first = surface_first;
-      add_coat(tables, material);
-      break;
-    case MaterialType::mirror: row.attenuator = add_loss(tables, loss_at_surface(material)); break;
-    case MaterialType::conductor:
-      row.surface_first = surface_first;
-      row.attenuator = add_conductor(tables, material);
-      break;
-    case MaterialType::dielectric:
-      row.attenuator = add_loss(tables, loss_inside(material));
-      if (has_tint_texture(material))
-        row.reflector = add_colour(tables, material.tint, 1, true);
-      else
-        row.tint = add_loss(tables, loss_at_surface(material));
-      row.is_thin = material.thin;
-      if (!is_coated(material)) break;
-      row.surface_first = surface_first;
-      row.coating_nm = static_cast<float>(material.coating_nm);
-      for (const double n : material.coating_n) tables.surface_data.push_back(static_cast<float>(n));
-    }
-  }
-}
-
-bool bends(const scene::Material& material) { return material.type == MaterialType::dielectric; }
 
 /// The clusters with the wavelengths that are lit, and their indices of refraction.
 void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
@@ -146,11 +37,11 @@ void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<i
     tables.cluster_wavelengths.insert(tables.cluster_wavelengths.end(), left.begin(), left.end());
     tables.cluster_first.push_back(static_cast<int>(tables.cluster_wavelengths.size()));
     tables.clusters.push_back(std::move(left));
-    for (const scene::Material& material : scene.materials) {
+    for (const scatter::Material& material : scene.materials) {
       double sum = 0;
       for (const int w : cluster) sum += material.n[static_cast<std::size_t>(w)];
-      tables.index_of_cluster.push_back(bends(material) ? static_cast<float>(sum / static_cast<double>(cluster.size()))
-                                                        : 1.0f);
+      tables.index_of_cluster.push_back(
+          is_refractive(material.type) ? static_cast<float>(sum / static_cast<double>(cluster.size())) : 1.0f);
     }
   }
 }
@@ -158,11 +49,11 @@ void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<i
 /// The index of refraction of each wavelength, and whether any cluster has more than one.
 void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables) {
   for (std::size_t w = 0; w < wavelength_count; ++w)
-    for (const scene::Material& material : scene.materials)
-      tables.index_of_wavelength.push_back(bends(material) ? static_cast<float>(material.n[w]) : 1.0f);
+    for (const scatter::Material& material : scene.materials)
+      tables.index_of_wavelength.push_back(is_refractive(material.type) ? static_cast<float>(material.n[w]) : 1.0f);
   const std::vector<bool> used = used_materials(scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    if (!used[m] || !bends(scene.materials[m])) continue;
+    if (!used[m] || !is_refractive(scene.materials[m].type)) continue;
     tables.clusters_spread = tables.clusters_spread || parts_wavelengths(scene.materials[m]);
     const Spectrum& n = scene.materials[m].n;
     for (const std::vector<int>& cluster : tables.clusters)
@@ -256,10 +147,9 @@ constexpr double jump_ratio = 8;
 std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene) {
   std::vector<const Spectrum*> curves;
   for (const scene::Object& object : scene.objects) {
-    const scene::Material& material = material_of(scene, object);
+    const scatter::Material& material = material_of(scene, object);
     const Spectrum& n = material.n;
-    if (material.type != MaterialType::dielectric || std::ranges::all_of(n, [&](double v) { return v == n[0]; }))
-      continue;
+    if (!disperses(material)) continue;
     if (std::ranges::none_of(curves, [&](const Spectrum* other) { return *other == n; })) curves.push_back(&n);
   }
   return curves;
@@ -308,28 +198,17 @@ double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& clust
 
 } // namespace
 
-std::vector<double> loss_inside(const scene::Material& material) {
-  std::vector<double> a;
-  if (!material.absorbs) return a;
-  for (int w = 0; w < optics::wavelength_count; ++w)
-    a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
-  return a;
-}
-
-std::vector<double> loss_at_surface(const scene::Material& material) {
-  std::vector<double> a;
-  if (!is_specular(material.type)) return a;
-  const Spectrum& left = is_refractive(material.type) ? material.tint : material.reflectance;
-  if (std::ranges::all_of(left, [](double part) { return part == 1; })) return a;
-  for (const double part : left) a.push_back(part > 0 ? std::min(-std::log(part), blackest) : blackest);
-  return a;
-}
-
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,
                                         const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                                         std::vector<shared::DeviceMaterial>& materials) {
   WavelengthTables tables;
-  add_material_rows(scene, tables, materials);
+  scatter::DeviceMaterials rows = scatter::device_materials(scene.materials, used_materials(scene));
+  materials = std::move(rows.materials);
+  tables.coefficient = std::move(rows.coefficient);
+  tables.reflectance = std::move(rows.reflectance);
+  tables.surface_data = std::move(rows.surface_data);
+  tables.attenuator_count = static_cast<int>(tables.coefficient.size() / wavelength_count);
+  tables.reflector_count = static_cast<int>(tables.reflectance.size() / wavelength_count);
   add_cluster_rows(scene, clusters, lit, tables);
   add_wavelength_rows(scene, tables);
   add_light_rows(lights, tables);
@@ -378,7 +257,7 @@ StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<s
     if (ends.empty()) continue;
     const auto [low, high] = std::ranges::minmax_element(ends);
     tables.stretch_span.push_back(to_float4(glm::dvec3(mean, *low, *high)));
-    for (const scene::Material& material : scene.materials) {
+    for (const scatter::Material& material : scene.materials) {
       const bool disperses = std::ranges::any_of(curves, [&](const Spectrum* n) { return *n == material.n; });
       tables.index_slope.push_back(!disperses           ? 0.0f
                                    : curves.size() == 1 ? 1.0f

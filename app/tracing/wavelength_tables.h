@@ -23,12 +23,6 @@ struct WavelengthTables {
   int attenuator_count = 0, reflector_count = 0;
 };
 
-/// [401]: the coefficient a >= 0 by which exp(-a s) of a wavelength's light is left; empty where nothing is lost.
-/// In glass (Beer and Lambert) a = 4 pi k / lambda in 1/m, and s is in metres.
-std::vector<double> loss_inside(const scene::Material& material);
-/// At a surface a = -ln of what is left at normal incidence, and s counts reflections, or ways through tinted glass.
-std::vector<double> loss_at_surface(const scene::Material& material);
-
 /// Fills every table, and materials. Only materials that an object uses get rows.
 /// lights: the environment is last. lit: which wavelengths stay in the clusters, whose n is the mean over all.
 WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::vector<const scene::Light*>& lights,

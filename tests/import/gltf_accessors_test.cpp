@@ -3,7 +3,7 @@
 // kind, extensions that change no triangle; and files that say more than they hold.
 #include "formats/import/import.h"
 #include "preset/read.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/mesh.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
@@ -221,7 +221,7 @@ TEST_F(GltfAccessors, AColourOfGlassIsItsTint) {
   file.json["meshes"][0]["primitives"][0]["material"] = 0;
   const preset::Material tinted = imported(file.text()).scene.materials.at("pane");
   const auto at_nm = [&](double nm) {
-    return scene::make_reflectance(tinted.tint, "tint")[static_cast<std::size_t>(nm - 380)];
+    return scatter::make_reflectance(tinted.tint, "tint")[static_cast<std::size_t>(nm - 380)];
   };
   EXPECT_GT(at_nm(540), 4 * at_nm(640));
   EXPECT_FALSE(tinted.thin);

@@ -8,7 +8,7 @@
 #include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/scene.h"
 #include "tests/support/gltf.h"
 #include "tests/support/meshes.h"
@@ -52,7 +52,7 @@ TEST_F(GltfImport, WhatEmitsShines) {
   EXPECT_EQ(p.scene.lights[0].type, preset::Light::Type::mesh);
   EXPECT_EQ(p.scene.lights[0].object, "tri");
   EXPECT_EQ(p.scene.objects[0].material, "wall");
-  const double k = formats::lumens_per_watt(scene::make_light_spectrum(p.scene.lights[0].spectrum, "spectrum"));
+  const double k = formats::lumens_per_watt(scatter::make_light_spectrum(p.scene.lights[0].spectrum, "spectrum"));
   EXPECT_NEAR(p.scene.lights[0].power_w * k, 1000 * std::numbers::pi * 0.5, 1e-3); // cd/m^2 of half a square metre
   material["emissiveTexture"]["index"] = 0;
   EXPECT_EQ(imported(json).scene.lights[0].type, preset::Light::Type::point); // the lamp above
@@ -298,7 +298,7 @@ TEST_F(GltfImport, MattSurfacesHaveTexturesOfTheFileOrBesideIt) {
   EXPECT_EQ(texture()->file, "out-meshes/wall.png");
   EXPECT_EQ(texture()->wrap, preset::Texture::Wrap::clamp);
   const scene::Scene scene = scene::load_scene(p);
-  const scene::Texture& made_texture = *scene.materials[0].texture;
+  const scatter::Texture& made_texture = *scene.materials[0].texture;
   for (const glm::dvec2& at : {glm::dvec2(0, 0), {1, 0}, {0.5, 0.25}}) {
     const glm::dvec2 place = made_texture.linear * at + made_texture.offset;
     EXPECT_NEAR(place.x, at.y - 0.75, 1e-9);

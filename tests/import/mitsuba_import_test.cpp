@@ -2,7 +2,7 @@
 // What Mitsuba's scenes mean: names of files and of objects, what is inside of what, flags, media, spectra, meshes of
 // its own. Expected values are worked out in comments.
 #include "image/image.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/mesh.h"
 #include "tests/import/imports_scenes.h"
 
@@ -220,8 +220,9 @@ TEST_F(MitsubaImport, AThinPaneIsThinGlass) {
   ASSERT_EQ(p.scene.objects.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(material_of(p, i).thin);
-    EXPECT_NEAR(scene::make_curve(material_of(p, i).dispersion, FileFinder(folder.path()), "n").sample(589.3).n.value(),
-                1.5046 / 1.000277, 1e-5);
+    EXPECT_NEAR(
+        scatter::make_curve(material_of(p, i).dispersion, FileFinder(folder.path()), "n").sample(589.3).n.value(),
+        1.5046 / 1.000277, 1e-5);
   }
   EXPECT_THAT(made.notes, Each(Not(HasSubstr("infinitely"))));
 }

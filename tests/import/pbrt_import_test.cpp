@@ -5,7 +5,7 @@
 #include "image/image.h"
 #include "optics/colour.h"
 #include "optics/dispersion.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/import/imports_scenes.h"
@@ -148,7 +148,7 @@ TEST_F(PbrtImport, AnIndexIsARatioToWhatIsAround) {
 TEST_F(PbrtImport, NamedGlassesDisperse) {
   const preset::Preset p = imported("Material \"dielectric\" \"spectrum eta\" \"glass-SF11\" Shape \"sphere\"");
   // Schott's data sheet of N-SF11: n_d = 1.78472, V_d = 25.68.
-  const auto curve = scene::make_curve(material_of(p, 0).dispersion, FileFinder(), "test");
+  const auto curve = scatter::make_curve(material_of(p, 0).dispersion, FileFinder(), "test");
   const auto n = [&](double nm) { return curve.sample(nm).n.value(); };
   EXPECT_NEAR(n(optics::line_d_nm), 1.78472, 1e-5);
   EXPECT_NEAR((n(optics::line_d_nm) - 1) / (n(optics::line_f_nm) - n(optics::line_c_nm)), 25.68, 0.01);
@@ -246,7 +246,7 @@ TEST_F(PbrtImport, SpectraStaySpectra) {
   EXPECT_EQ(light("\"spectrum I\" \"lamp.spd\""), listed);
   // Version 4 gives every spectrum the luminance of white: as large as rgb 1 1 1 has, times the scale.
   const auto luminous = [](const preset::Light& l) {
-    const auto watts = scene::make_light_spectrum(l.spectrum, "test");
+    const auto watts = scatter::make_light_spectrum(l.spectrum, "test");
     return optics::to_xyz(watts)[1] * l.power_w;
   };
   const double white = luminous(light("\"rgb I\" [ 1 1 1 ]"));

@@ -11,7 +11,7 @@
 #include "optics/fresnel.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "tests/inverse/searches.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
@@ -31,7 +31,7 @@ double index_at_nm(double nm) {
   preset::Dispersion d;
   d.type = preset::Dispersion::Type::file;
   d.file = "N-SF11";
-  return *scene::make_curve(d, FileFinder(""), "glass").sample(nm).n;
+  return *scatter::make_curve(d, FileFinder(""), "glass").sample(nm).n;
 }
 
 /// One facet of a millimetre over cells of a millimetre, and that spectrum.

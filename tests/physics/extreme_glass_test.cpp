@@ -68,7 +68,7 @@ std::size_t clusters_of(const preset::Material& material, double threshold_deg) 
   preset::Preset p = over_floor(1);
   p.scene.materials["glass"] = material;
   const scene::Scene scene = scene::load_scene(p);
-  for (const scene::Material& m : scene.materials)
+  for (const scatter::Material& m : scene.materials)
     if (m.name == "glass")
       return photons::cluster_wavelengths(m.n, threshold_deg, photons::ClusterMethod::optimal).clusters.size();
   return 0;

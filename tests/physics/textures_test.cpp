@@ -2,7 +2,7 @@
 // Pictures that make surfaces rough, tint glass and lean normals. A picture of one value does what the plain number
 // does. A normal map of one normal lights a flat board as one that leans so, within what falls on it.
 #include "optics/primary_reflectances.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"

@@ -80,7 +80,7 @@ private:
     const double side = glm::dot(ray.direction, geometric) < 0 ? 1 : -1;
     const scene::Object& object = object_of(e.triangle);
     const bool mirror =
-        scene_.materials[static_cast<std::size_t>(object.material)].type == scene::Material::Type::mirror;
+        scene_.materials[static_cast<std::size_t>(object.material)].type == scatter::Material::Type::mirror;
     std::vector<int> beyond = inside;
     if (!mirror) cross(beyond, static_cast<int>(scene_.object_of_primitive[e.triangle]), side > 0);
     const double n_i = index_in(inside, n), n_t = index_in(beyond, n);

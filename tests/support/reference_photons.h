@@ -62,7 +62,7 @@ private:
 
   glm::dvec3 light() const { return scene_.lights[0].position; }
   double uniform() { return uniform_(random_); }
-  const scene::Material& material(int object) const {
+  const scatter::Material& material(int object) const {
     return scene_.materials[static_cast<std::size_t>(scene_.objects[static_cast<std::size_t>(object)].material)];
   }
 
@@ -123,13 +123,13 @@ private:
       if (!meet(from, direction, INFINITY, contact)) return;
       if (const int medium = medium_of(inside); medium >= 0)
         losses.metres[material_number(medium)] += glm::distance(from, contact.position) * scene_.metres_per_unit;
-      const scene::Material& here = material(contact.object);
-      if (here.type == scene::Material::Type::diffuse) {
+      const scatter::Material& here = material(contact.object);
+      if (here.type == scatter::Material::Type::diffuse) {
         if (surface > 0) deposit(contact, direction, cluster, watts, losses, film);
         return;
       }
       const double side = glm::dot(direction, contact.geometric) < 0 ? 1 : -1;
-      const bool mirror = here.type == scene::Material::Type::mirror;
+      const bool mirror = here.type == scatter::Material::Type::mirror;
       if (mirror) losses.reflections[material_number(contact.object)] += 1;
       const std::vector<int> beyond = mirror ? inside : across(inside, contact.object, side > 0);
       const double n_i = index_in(inside, cluster), n_t = index_in(beyond, cluster);
@@ -190,7 +190,7 @@ private:
     const auto w = static_cast<std::size_t>(wavelength);
     double share = 1;
     for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
-      const scene::Material& one = scene_.materials[m];
+      const scatter::Material& one = scene_.materials[m];
       if (losses.metres[m] > 0)
         share *= std::exp(-4 * M_PI * one.k[w] * losses.metres[m] / ((380 + wavelength) * 1e-9));
       if (losses.reflections[m] > 0) share *= std::pow(one.reflectance[w], losses.reflections[m]);

@@ -3,7 +3,7 @@
 // lists of shipped metals and glasses: words narrow them, the keyboard and the mouse choose.
 #include "dispersion_fixture.h"
 #include "parameters_fixture.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 
 namespace nephroid::ui::material_balls_test {
 

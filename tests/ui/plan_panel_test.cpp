@@ -14,7 +14,7 @@ protected:
                            {"indirect", false, "not rendered yet", "", false},
                            {"fog", false, "there is none", "/leave_out/fog", false}};
     runs.plan.buffers = {{"tree", 1 << 20}, {"film", 3 << 20}};
-    runs.plan.defines = {{"NEPHROID_MIRRORS", "0"}};
+    runs.plan.defines = {{"NEPHROID_SMOOTH", "0"}};
   }
   auto place_of(const std::string& pass) const { return workspace.panel<PlanPanel>().place_of(pass); }
   /// Clicks the box of a pass; the edit that this pushed.

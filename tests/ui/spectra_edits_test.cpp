@@ -3,7 +3,7 @@
 #include "optics/spectrum.h"
 #include "photons/clusters/scene_clusters.h"
 #include "photons/effort/importance.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scenes.h"
 #include "spectral/settings.h"
 #include "ui/spectral/spectra/curves.h"
@@ -23,7 +23,7 @@ TEST(LightEdits, ATableIsAsNearAsItCanBe) {
   EXPECT_EQ(rows.table.back()[0], 780);
   // CIE 015: D65 is 117.812 at 460 nm, its largest value, and 100 at 560 nm.
   EXPECT_NEAR(rows.table[9][1], 100 / 117.812, 5e-4);
-  const auto smooth = scene::make_light_spectrum(rows, "test"), exact = optics::illuminant("D65");
+  const auto smooth = scatter::make_light_spectrum(rows, "test"), exact = optics::illuminant("D65");
   double displaced = 0; // power that is at another wavelength, both sum to 1
   for (std::size_t w = 0; w < exact.size(); ++w) displaced += std::abs(smooth[w] - exact[w]) / 2;
   EXPECT_LT(displaced, 0.03);
@@ -32,7 +32,7 @@ TEST(LightEdits, ATableIsAsNearAsItCanBe) {
 TEST(LightEdits, WhatHasNoPowerStillBecomesALight) {
   for (const LightSpectrum& dark :
        {LightSpectrum{Type::illuminant, "D66", 0, {}}, LightSpectrum{Type::lines, "", 0, {{1064, 1}}}})
-    EXPECT_NO_THROW(scene::make_light_spectrum(as_table(dark), "test"));
+    EXPECT_NO_THROW(scatter::make_light_spectrum(as_table(dark), "test"));
   EXPECT_EQ(largest_power(table({{400, 0}, {500, 0}})), 1);
   EXPECT_EQ(largest_power({Type::blackbody, "", 5000, {}}), 1);
 }

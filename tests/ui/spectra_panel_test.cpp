@@ -2,7 +2,7 @@
 // The panel "Spectra": the mouse edits a light's spectrum, one gesture one entry; its numbers are the engine's; what is
 // wrong is a sentence in it.
 #include "photons/tables/run_tables.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scenes.h"
 #include "spectral/settings.h"
 #include "ui/spectral/spectra/panel.h"
@@ -50,7 +50,7 @@ TEST_F(SpectraPanelTest, ARowThatIsDraggedFollowsTheMouseAndIsOneEntry) {
   ASSERT_THAT(dragged.table, SizeIs(4));
   EXPECT_NEAR(dragged.table[2][0], 640, 2);
   EXPECT_NEAR(dragged.table[2][1], 0.9, 0.02);
-  EXPECT_EQ(spectra().lights[0].spectrum, scene::make_light_spectrum(dragged, "test"))
+  EXPECT_EQ(spectra().lights[0].spectrum, scatter::make_light_spectrum(dragged, "test"))
       << "the curve shown is of the preset as it is";
   press(ImGuiKey_Z, ImGuiMod_Ctrl);
   EXPECT_EQ(light().table[2], (PowerRow{600, 0.5}));

@@ -175,7 +175,8 @@ TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy) {
   EXPECT_TRUE(planned_to_run(plan_of(p), "photons"));
   EXPECT_TRUE(planned_to_run(plan_of(p), "direct"));
   EXPECT_FALSE(planned_to_run(plan_of(p), "mirrors"));
-  EXPECT_EQ(plan_of(p).defines.at("NEPHROID_MIRRORS"), "0");
+  EXPECT_EQ(plan_of(p).defines.at("NEPHROID_MATERIALS"),
+            std::to_string(1 << MATERIAL_DIFFUSE | 1 << MATERIAL_DIELECTRIC));
   std::string reason;
   spectral::settings(p).caustic = false;
   EXPECT_FALSE(planned_to_run(plan_of(p), "photons", &reason));
@@ -297,7 +298,7 @@ TEST(Losses, PartsKeepTheBoundAndAreTheFewest) {
     // The box about a ball of 0.1 m has a diagonal of 0.1 sqrt(3) m.
     const double longest = mirror ? 8 : 0.2 * std::sqrt(3.0), most = 0.1;
     const std::vector<double> a =
-        mirror ? tracing::loss_at_surface(scene.materials[0]) : tracing::loss_inside(scene.materials[0]);
+        mirror ? scatter::loss_at_surface(scene.materials[0]) : scatter::loss_inside(scene.materials[0]);
     ASSERT_EQ(a.size(), static_cast<std::size_t>(optics::wavelength_count));
     std::vector<int> all(a.size());
     std::iota(all.begin(), all.end(), 0);

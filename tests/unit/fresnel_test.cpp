@@ -4,7 +4,7 @@
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
 #include "optics/spectrum.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "tests/support/test.h"
 
 namespace nephroid::fresnel_test {
@@ -85,7 +85,7 @@ TEST(Conductor, HasItsClosedForms) {
 
 TEST(Conductor, ThreeTermsHoldShippedMetals) {
   for (const char* name : {"gold", "silver", "copper", "aluminium", "brass"}) {
-    const DispersionCurve curve = scene::load_dispersion(name);
+    const DispersionCurve curve = scatter::load_dispersion(name);
     const Spectrum n = sample_n(curve, Extrapolation::refuse), k = sample_k(curve, Extrapolation::refuse);
     const ConductorTerms terms = conductor_terms(n, k);
     EXPECT_LT(terms.error, 0.001) << name;

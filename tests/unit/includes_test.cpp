@@ -199,7 +199,7 @@ TEST(Includes, every_row_of_the_table_is_a_folder) {
 // The engines must not know each other, and what knows no OpenCL must stay so, whatever the table is changed to.
 TEST(Includes, the_table_keeps_the_promises_of_the_design) {
   const FolderTable table = project_table();
-  for (const char* folder : {"base", "optics", "preset", "scene", "plan", "job", "image"}) {
+  for (const char* folder : {"base", "optics", "preset", "scatter", "scene", "plan", "job", "image"}) {
     EXPECT_FALSE(table.at(folder).contains("compute")) << folder;
   }
   for (const auto& [folder, allowed] : table) {

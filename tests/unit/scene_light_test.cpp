@@ -2,11 +2,13 @@
 // What a loaded scene has on the 401 wavelengths: lights, materials of every kind, environments and what is refused of
 // their pictures, and the tables that photons are drawn by from an environment.
 #include "image/image.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "tests/support/loaded_scenes.h"
 #include "tracing/scene_tables.h"
 
 namespace nephroid::scene::scene_light_test {
+
+using namespace nephroid::scatter;
 
 TEST(SceneLight, AreaLightHasItsEdges) {
   preset::Preset preset = ball_over_floor();
@@ -71,7 +73,7 @@ TEST(SceneLight, MaterialsOnTheWavelengths) {
   const Scene scene = load_scene(preset);
   EXPECT_NEAR(scene.materials[0].n[588 - optics::first_nm], 1.5168, 5e-5);
   EXPECT_FALSE(scene.materials[0].absorbs);
-  EXPECT_EQ(scene.materials[1].type, Material::Type::mirror);
+  EXPECT_EQ(scene.materials[1].type, preset::Material::Type::mirror);
   EXPECT_DOUBLE_EQ(scene.materials[1].reflectance[200], 0.8);
   EXPECT_DOUBLE_EQ(scene.materials[2].reflectance[0], 0.25);
 }

@@ -3,11 +3,13 @@
 // files; contradictions between fields, refused at the right place.
 #include "base/bytes.h"
 #include "image/image.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/scene.h"
 #include "tests/support/loaded_scenes.h"
 
 namespace nephroid::scene::scene_test {
+
+using namespace nephroid::scatter;
 
 using preset::Shape;
 
@@ -259,7 +261,7 @@ TEST(Scene, ShippedMaterialsAreReadByTheNamesOfPresets) {
   std::set<std::string> metals;
   for (const ShippedMaterial& material : shipped) {
     preset::Material of;
-    of.type = material.metal ? Material::Type::conductor : Material::Type::dielectric;
+    of.type = material.metal ? preset::Material::Type::conductor : preset::Material::Type::dielectric;
     of.metal = of.dispersion.file = material.name;
     of.dispersion.type = preset::Dispersion::Type::file;
     std::vector<std::string> warnings;

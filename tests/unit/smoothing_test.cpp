@@ -79,7 +79,7 @@ protected:
 };
 
 TEST_F(Smoothing, leaves_what_shows_a_texture_as_it_is) {
-  scene.materials[0].texture = std::make_shared<scene::Texture>();
+  scene.materials[0].texture = std::make_shared<scatter::Texture>();
   Photons photons = scatter([](int, int) { return 2.0; }, 1);
   const std::vector<float> before = photons.rgb;
   smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere).spread(photons.rgb, photons.error_draw);

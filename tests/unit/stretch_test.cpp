@@ -14,7 +14,7 @@ const std::vector<bool> all_lit(optics::wavelength_count, true);
 scene::Scene scene_of(const std::vector<optics::Spectrum>& curves) {
   scene::Scene scene;
   for (const optics::Spectrum& n : curves) {
-    scene::Material material{.type = scene::Material::Type::dielectric, .n = n};
+    scatter::Material material{.type = scatter::Material::Type::dielectric, .n = n};
     scene::Object object{.material = static_cast<int>(scene.materials.size())};
     scene.materials.push_back(material);
     scene.objects.push_back(object);

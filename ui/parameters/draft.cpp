@@ -6,7 +6,8 @@
 #include "base/location.h"
 #include "preset/animation.h"
 #include "preset/read.h"
-#include "scene/materials.h"
+#include "scatter/material.h"
+#include "scatter/spectra.h"
 
 #include <algorithm>
 
@@ -28,17 +29,17 @@ void check_loads(const preset::Preset& before, const preset::Preset& after) {
   for (const auto& [name, material] : after.scene.materials) {
     const auto was = before.scene.materials.find(name);
     if (was == before.scene.materials.end() || was->second != material)
-      scene::make_material(name, material, finder, where / "scene" / "materials" / name, warnings);
+      scatter::make_material(name, material, finder, where / "scene" / "materials" / name, warnings);
   }
   for (std::size_t i = 0; i < after.scene.lights.size(); ++i) {
     const preset::LightSpectrum& spectrum = after.scene.lights[i].spectrum;
     if (i >= before.scene.lights.size() || before.scene.lights[i].spectrum != spectrum)
-      scene::make_light_spectrum(spectrum, where / "scene" / "lights" / i / "spectrum");
+      scatter::make_light_spectrum(spectrum, where / "scene" / "lights" / i / "spectrum");
   }
   const auto known = preset::file_names(before);
   for (const auto& file : preset::file_names(after))
     if (std::find(known.begin(), known.end(), file) == known.end()) // a file, or a material by its short name
-      scene::find_dispersion(file.second, finder, {after.source, file.first});
+      scatter::find_dispersion(file.second, finder, {after.source, file.first});
 }
 
 } // namespace

@@ -8,7 +8,7 @@
 #include "preset/choices.h"
 #include "preset/differences.h"
 #include "preset/read.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ std::vector<RequiredFile> needs_of(const preset::Preset& preset) {
     if (std::ranges::count(needs, name, &RequiredFile::name) > 0) continue;
     needs.push_back({name});
     try {
-      scene::find_dispersion(name, finder, preset.source);
+      scatter::find_dispersion(name, finder, preset.source);
     } catch (const Error&) {
       needs.back().there = false;
     }

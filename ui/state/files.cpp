@@ -201,8 +201,8 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
   object.mesh = mesh.file.string();
   object.material = material_for(scene);
   const preset::Material& material = scene.materials.at(object.material);
-  const bool dielectric = material.type == preset::Material::Type::dielectric && !material.thin;
-  if (dielectric && !mesh.closed && scene.damaged_meshes == preset::Scene::DamagedMeshes::refuse)
+  const bool body = is_refractive(material.type) && !material.thin;
+  if (body && !mesh.closed && scene.damaged_meshes == preset::Scene::DamagedMeshes::refuse)
     throw bad_input(mesh.file.string(), "is not closed, so it cannot be of '" + object.material + "', a dielectric",
                     "a closed mesh, as the preset's damaged_meshes is \"refuse\"",
                     "mend it, or set damaged_meshes to \"report\"");
@@ -220,7 +220,7 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
   std::string note =
       fmt::format("{} is the object '{}' of '{}', scaled by {:g} to {:.3g} {}, at the camera's target",
                   mesh.file.filename().string(), object.name, object.material, factor, size, unit_word(preset));
-  if (dielectric && !mesh.closed) note += "; it is not closed: light that enters may never leave";
+  if (body && !mesh.closed) note += "; it is not closed: light that enters may never leave";
   scene.objects.push_back(std::move(object));
   preset::check(preset, [&](const std::string& pointer) { return Location(mesh.file.string(), pointer); });
   return {std::move(preset), std::move(note)};

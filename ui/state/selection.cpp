@@ -5,7 +5,7 @@
 #include "engine/engine.h"
 #include "optics/dispersion.h"
 #include "preset/choices.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,7 @@ std::vector<std::string> dielectrics(const preset::Preset& preset) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     const auto found = preset.scene.materials.find(name);
-    if (found == preset.scene.materials.end() || found->second.type != preset::Material::Type::dielectric) return;
+    if (found == preset.scene.materials.end() || !is_refractive(found->second.type)) return;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   for (const preset::Object& object : preset.scene.objects) add(object.material);
@@ -104,7 +104,7 @@ preset::Dispersion load_dispersion(const std::string& file, const std::string& p
   const std::filesystem::path path = std::filesystem::absolute(file, ignored);
   dispersion.file = !file.empty() && is_there(path) ? path.string() : file;
   const FileFinder finder(std::filesystem::path(preset_source).parent_path());
-  optics::sample_n(scene::make_curve(dispersion, finder, file.empty() ? "load dispersion" : file),
+  optics::sample_n(scatter::make_curve(dispersion, finder, file.empty() ? "load dispersion" : file),
                    optics::Extrapolation::automatic);
   return dispersion;
 }

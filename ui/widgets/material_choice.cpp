@@ -11,7 +11,7 @@ namespace nephroid::ui {
 namespace {
 
 /// n_d and V_d, as catalogues of glass have them.
-std::string figures_of(const scene::ShippedMaterial& material) {
+std::string figures_of(const scatter::ShippedMaterial& material) {
   if (material.metal || !material.n_d) return {};
   return fmt::format("n_d {:.4f}", *material.n_d) + (material.abbe ? fmt::format("   V_d {:.1f}", *material.abbe) : "");
 }
@@ -22,8 +22,8 @@ void MaterialChoice::begin(TaskQueue& tasks) {
   words_.clear();
   marked_ = 0;
   if (was_read_ || tasks.busy(reading_)) return;
-  tasks.start(reading_, {"reading the shipped materials"}, scene::read_shipped_materials,
-              [this](std::vector<scene::ShippedMaterial> shipped) {
+  tasks.start(reading_, {"reading the shipped materials"}, scatter::read_shipped_materials,
+              [this](std::vector<scatter::ShippedMaterial> shipped) {
                 shipped_ = std::move(shipped);
                 was_read_ = true;
               });
@@ -53,8 +53,8 @@ std::optional<std::string> MaterialChoice::draw_list(const std::string& widget, 
   const bool entered = ImGui::InputTextWithHint("##words", "Search", &words_, ImGuiInputTextFlags_EnterReturnsTrue);
   places.note(widget + ":words");
   std::size_t count = 0;
-  std::vector<const scene::ShippedMaterial*> matches;
-  for (const scene::ShippedMaterial& material : shipped_) {
+  std::vector<const scatter::ShippedMaterial*> matches;
+  for (const scatter::ShippedMaterial& material : shipped_) {
     if (material.metal != (kind == Kind::metal)) continue;
     ++count;
     if (has_words(material.name + " " + figures_of(material), words_)) matches.push_back(&material);

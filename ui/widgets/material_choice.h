@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped metals or glasses, to choose from by words. The keyboard alone is enough: type, up and down, Enter.
 #pragma once
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "ui/state/tasks.h"
 #include "ui/widgets/widgets.h"
 
@@ -23,7 +23,7 @@ private:
 
   std::string words_;
   std::size_t marked_ = 0; ///< among those that have the words
-  std::vector<scene::ShippedMaterial> shipped_;
+  std::vector<scatter::ShippedMaterial> shipped_;
   bool was_read_ = false;
   TaskKey reading_;
 };

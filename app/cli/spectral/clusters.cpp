@@ -43,8 +43,7 @@ std::string chosen_material(const preset::Preset& preset, const std::string& wan
   std::set<std::string> dielectrics;
   for (const preset::Object& object : preset.scene.objects) {
     const auto found = preset.scene.materials.find(object.material);
-    if (found != preset.scene.materials.end() && found->second.type == preset::Material::Type::dielectric)
-      dielectrics.insert(found->first);
+    if (found != preset.scene.materials.end() && is_refractive(found->second.type)) dielectrics.insert(found->first);
   }
   const std::string names = fmt::format("{}", fmt::join(dielectrics, ", "));
   if (dielectrics.empty())
@@ -66,8 +65,8 @@ Task preset_task(const ClusterOptions& options) {
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
   const Location where = Location(preset.source) / "scene" / "materials" / name / "dispersion";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  return {preset::at_origins(preset, [&] { return scene::make_curve(dispersion, finder, where); }),
-          scene::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg,
+  return {preset::at_origins(preset, [&] { return scatter::make_curve(dispersion, finder, where); }),
+          scatter::outside_policy(dispersion.outside), spectral::settings(preset).threshold_deg,
           spectral::settings(preset).method};
 }
 
@@ -75,11 +74,11 @@ Task make_task(const ClusterOptions& options) {
   if (options.preset.empty() == options.ior.empty())
     throw bad_input("clusters", options.ior.empty() ? "nothing to cluster" : "both a preset and --ior are given",
                     "expected a PRESET or --ior FILE");
-  const bool is_dispersion = options.preset.ends_with(".yml") || scene::shipped_materials().contains(options.preset);
+  const bool is_dispersion = options.preset.ends_with(".yml") || scatter::shipped_materials().contains(options.preset);
   if (is_dispersion && !is_there(options.preset + ".json"))
     throw bad_input("clusters", fmt::format("'{}' is a dispersion file, not a preset", options.preset), {},
                     fmt::format("take it with --ior {}", options.preset));
-  Task task = options.ior.empty() ? preset_task(options) : Task{.curve = scene::load_dispersion(options.ior)};
+  Task task = options.ior.empty() ? preset_task(options) : Task{.curve = scatter::load_dispersion(options.ior)};
   if (options.outside != "automatic") task.outside = outside_policy(options.outside);
   if (options.threshold_deg) task.threshold_deg = *options.threshold_deg;
   if (options.method) task.method = chosen_of<ClusterMethod>(*options.method);

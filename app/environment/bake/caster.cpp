@@ -104,7 +104,7 @@ std::uint64_t hash_items(const T& items, std::uint64_t hash) {
   return hash_of({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)}, hash);
 }
 
-std::uint64_t hash_texture(const scene::Texture& t, std::uint64_t hash) {
+std::uint64_t hash_texture(const scatter::Texture& t, std::uint64_t hash) {
   hash = hash_of(fmt::format("{} {} {} {} {} {} {} {} {} {}", t.width, t.height, static_cast<int>(t.wrap), t.nearest,
                              t.linear[0].x, t.linear[0].y, t.linear[1].x, t.linear[1].y, t.offset.x, t.offset.y),
                  hash);
@@ -332,7 +332,7 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
   }
   if (std::ranges::any_of(caster.scene.objects, &scene::Object::smooth)) hash = hash_items(mesh.normals, hash);
   for (const scene::Object& object : caster.scene.objects) {
-    const scene::Material& material = material_of(caster.scene, object);
+    const scatter::Material& material = material_of(caster.scene, object);
     // Only the order of priorities matters.
     const auto rank = std::ranges::count_if(caster.scene.objects,
                                             [&](const scene::Object& o) { return o.priority < object.priority; });

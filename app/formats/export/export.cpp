@@ -82,9 +82,11 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
   if (scene.environment)
     notes.push_back(
         fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
-  if (any_material(scene, scene::is_coated)) notes.push_back("coatings are left out");
-  if (any_material(scene, scene::is_plastic)) notes.push_back("coats of plastic are left out: they are matt");
-  if (any_material(scene, scene::has_pictures))
+  for (const scene::Object& object : scene.objects)
+    if (const std::string note(gltf_surface(material_of(scene, object)).left_out);
+        !note.empty() && std::ranges::find(notes, note) == notes.end())
+      notes.push_back(note);
+  if (any_material(scene, scatter::has_pictures))
     notes.push_back("textures are left out: their surfaces have the colour of their reflectance");
   if (std::ranges::any_of(scene.lights, scene::has_disc)) notes.push_back("a sun is a point: its disc is left out");
   const auto any_light = [&](bool (*is)(const scene::Light&)) { return std::ranges::any_of(scene.lights, is); };
@@ -95,10 +97,6 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
     notes.push_back("glTF has no photometry and no lamps with pictures: those shine evenly");
   if (scene.camera.lens_radius > 0) notes.push_back("glTF has no lenses: the camera's aperture is left out");
   if (scene.camera.shift != glm::dvec2(0)) notes.push_back("glTF has no shift: the camera's is left out");
-  if (std::ranges::any_of(scene.materials, [](const scene::Material& material) {
-        return material.type == scene::Material::Type::conductor;
-      }))
-    notes.push_back("metals have the colour that they have straight on");
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) { return !light.inside.empty(); }))
     notes.push_back("a light is inside glass: another renderer may keep its light there");
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) {

@@ -192,28 +192,26 @@ private:
 
   /// A receiver has one of its own.
   std::size_t material_of_object(const scene::Object& object, const Caustic* caustic) {
-    if (caustic) return glb_.add("materials", lit(matt(material_of(scene_, object)), object.name, *caustic));
+    if (caustic) return glb_.add("materials", lit(plain(material_of(scene_, object)), object.name, *caustic));
     const auto [found, is_new] = materials_.try_emplace(object.material);
     if (is_new) found->second = glb_.add("materials", plain(material_of(scene_, object)));
     return found->second;
   }
 
-  Json plain(const scene::Material& material) {
-    if (is_refractive(material.type)) return glass(material);
-    Json made = matt(material);
-    if (!is_matt(material.type))
-      made["pbrMetallicRoughness"]["metallicFactor"] = 1,
-      made["pbrMetallicRoughness"]["roughnessFactor"] = std::sqrt(material.alpha);
-    return made;
-  }
-
-  static Json matt(const scene::Material& material) {
-    Json colour = Json(colour_of_reflectance(material.reflectance));
+  Json plain(const scatter::Material& material) {
+    const scatter::GltfSurface surface = gltf_surface(material);
+    Json colour = Json(colour_of_reflectance(surface.base_colour));
     colour.push_back(1);
-    return {{"name", material.name},
-            {"doubleSided", true},
-            {"pbrMetallicRoughness",
-             {{"baseColorFactor", std::move(colour)}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+    Json made{{"name", material.name},
+              {"pbrMetallicRoughness",
+               {{"baseColorFactor", std::move(colour)},
+                {"metallicFactor", surface.metallic},
+                {"roughnessFactor", surface.roughness}}}};
+    if (surface.transmits)
+      add_transmission(made, material);
+    else
+      made["doubleSided"] = true;
+    return made;
   }
 
   /// The texture holds bytes, whose largest stands for the level above which a hundredth of the caustic's light is.
@@ -233,20 +231,13 @@ private:
     return material;
   }
 
-  Json glass(const scene::Material& material) {
+  void add_transmission(Json& made, const scatter::Material& material) {
     double thickness = 0; // the largest object's, in metres
     for (const scene::Object& object : scene_.objects)
       if (&material_of(scene_, object) == &material)
         thickness = std::max(thickness, 2 * static_cast<double>(object.bounds.radius) * metres_);
     const double n = at(material.n, optics::line_d_nm),
                  spread = at(material.n, optics::line_f_nm) - at(material.n, optics::line_c_nm);
-    Json tint = Json(colour_of_reflectance(material.tint));
-    tint.push_back(1);
-    Json made{{"name", material.name},
-              {"pbrMetallicRoughness",
-               {{"baseColorFactor", std::move(tint)},
-                {"metallicFactor", 0},
-                {"roughnessFactor", std::sqrt(material.alpha)}}}};
     Json& extensions = made["extensions"];
     extensions["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
     extensions["KHR_materials_ior"] = {{"ior", n}};
@@ -261,7 +252,6 @@ private:
     if (n > 1 && spread > 0)
       extensions["KHR_materials_dispersion"] = {{"dispersion", 20 * spread / (n - 1)}}; // 20 over Abbe's number
     for (const auto& [name, value] : extensions.items()) glb_.use(name.c_str());
-    return made;
   }
 
   void add_camera() {

@@ -57,7 +57,7 @@ std::vector<Receiver> receivers_of(const scene::Scene& scene) {
 }
 
 scene::Scene irradiance_view(scene::Scene scene, const Receiver& receiver, int longest) {
-  scene::Material white;
+  scatter::Material white;
   white.reflectance = optics::constant_spectrum(1);
   scene.objects[static_cast<std::size_t>(receiver.object)].material = static_cast<int>(scene.materials.size());
   scene.materials.push_back(white);

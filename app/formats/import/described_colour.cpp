@@ -7,7 +7,7 @@
 #include "optics/coat.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -132,7 +132,7 @@ LightColour light_colour(const DescribedColour& colour) {
     light.spectrum.table = rows_of(*colour.spectrum);
     for (auto& row : light.spectrum.table) row[1] /= largest; // relative power: watts are the light's own
   }
-  light.watts_per_lumen = colour.luminance / lumens_per_watt(scene::make_light_spectrum(light.spectrum, "spectrum"));
+  light.watts_per_lumen = colour.luminance / lumens_per_watt(scatter::make_light_spectrum(light.spectrum, "spectrum"));
   return light;
 }
 
@@ -166,7 +166,7 @@ optics::Spectrum values_of(const DescribedColour& colour) {
   const double largest = std::max({colour.rgb.x, colour.rgb.y, colour.rgb.z});
   if (!(largest > 0)) return {};
   const preset::Reflectance share = reflectance_of(scene::to_vec3(colour.rgb / largest));
-  optics::Spectrum values = scene::make_reflectance(share, "colour");
+  optics::Spectrum values = scatter::make_reflectance(share, "colour");
   for (double& value : values) value *= largest;
   return values;
 }

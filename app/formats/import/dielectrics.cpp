@@ -2,7 +2,7 @@
 #include "formats/import/dielectrics.h"
 
 #include "base/files.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ constexpr std::size_t most_pairs = 1u << 26; ///< of dielectrics that are looked
 bool is_air(double n) { return alike(n, 1); }
 
 optics::DispersionCurve curve_of(const preset::Dispersion& dispersion) {
-  return scene::make_curve(dispersion, FileFinder(), "dispersion");
+  return scatter::make_curve(dispersion, FileFinder(), "dispersion");
 }
 
 /// factor times n, or over it.
@@ -275,7 +275,7 @@ optics::Spectrum with_held_ends(optics::Spectrum values) {
 std::optional<preset::Material> metal_of(Description& description, const std::string& name,
                                          const optics::Spectrum& file_n, const optics::Spectrum& file_k) {
   const optics::Spectrum n = with_held_ends(file_n), k = with_held_ends(file_k);
-  if (*std::ranges::min_element(n) <= 0 || optics::conductor_terms(n, k).error > scene::most_conductor_error)
+  if (*std::ranges::min_element(n) <= 0 || optics::conductor_terms(n, k).error > scatter::most_conductor_error)
     return std::nullopt;
   std::string text =
       "COMMENTS: |\n    n and k as the scene's metal has them\nDATA:\n  - type: tabulated nk\n    data: |\n";

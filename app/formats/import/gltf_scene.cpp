@@ -7,7 +7,7 @@
 #include "formats/import/dielectrics.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -196,7 +196,7 @@ std::string absorbing_glass_file(const GltfValue& material, const preset::Disper
   if (!(distance > 0) || volume.number("thicknessFactor", 0) == 0 || colour == std::array<double, 3>{1, 1, 1})
     return {};
   constexpr double least = 1e-4; // black glass has no k
-  optics::Spectrum absorption = scene::make_reflectance(reflectance_of(colour), "attenuationColor");
+  optics::Spectrum absorption = scatter::make_reflectance(reflectance_of(colour), "attenuationColor");
   for (double& a : absorption) a = std::log(1 / std::max(a, least)) / distance; // in 1/m: the file's lengths are metres
   return absorbing_glass_file(clear, absorption,
                               "n as KHR_materials_ior and KHR_materials_dispersion say it, k as "
@@ -306,7 +306,7 @@ LightColour light_colour(const std::array<double, 3>& rgb) {
        nm += 10) // power cannot be negative, so saturated colours become a little paler
     light.spectrum.table.push_back(
         {static_cast<double>(nm), std::max(0.0, spectrum[static_cast<std::size_t>(nm - optics::first_nm)])});
-  light.watts_per_lumen = luminance / lumens_per_watt(scene::make_light_spectrum(light.spectrum, "spectrum"));
+  light.watts_per_lumen = luminance / lumens_per_watt(scatter::make_light_spectrum(light.spectrum, "spectrum"));
   return light;
 }
 
@@ -345,7 +345,7 @@ preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const
 }
 
 double luminous_irradiance(const preset::Light& light, const glm::dvec3& at) {
-  const double seen = lumens_per_watt(scene::make_light_spectrum(light.spectrum, "spectrum")) / most_lumens;
+  const double seen = lumens_per_watt(scatter::make_light_spectrum(light.spectrum, "spectrum")) / most_lumens;
   if (light.type == preset::Light::Type::directional) return light.irradiance_w_m2 * seen;
   const glm::dvec3 way = at - scene::to_dvec3(light.position);
   const bool spot = light.type == preset::Light::Type::spot;

@@ -219,7 +219,7 @@ std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const 
 
 /// A picture or a checkerboard in a colour's or number's place; nothing where there is none.
 std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, const std::string& name,
-                                          scene::Texels texels) {
+                                          scatter::Texels texels) {
   const MitsubaFile& file = scene.file;
   const xml_node node = file.child(parent, name);
   const std::string type = node ? file.attribute(node, "type") : std::string();
@@ -242,7 +242,7 @@ std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, 
   const std::string wrap = file.text(node, "wrap_mode", "repeat");
   if (file.text(node, "filter_type", "bilinear") != "bilinear")
     scene.d.note(where, "the texels of the texture have no edges here");
-  if (file.flag(node, "raw") && texels == scene::Texels::colours)
+  if (file.flag(node, "raw") && texels == scatter::Texels::colours)
     scene.d.note(where, "the texture is raw in the file, and taken as sRGB here");
   note_unasked(scene, node);
   return picture(file.find(node, file.text(node, "filename", "")),
@@ -259,7 +259,7 @@ double roughness_of(MitsubaScene& scene, xml_node node, const std::string& key,
   const MitsubaFile& file = scene.file;
   if (file.text(node, "distribution", "beckmann") != "ggx")
     scene.d.note(file.at(node), "its facets have the distribution GGX here, not Beckmann's");
-  const auto alpha = texture ? texture_of(scene, node, "alpha", scene::Texels::numbers) : std::nullopt;
+  const auto alpha = texture ? texture_of(scene, node, "alpha", scatter::Texels::numbers) : std::nullopt;
   if (alpha) {
     const xml_node given = file.child(node, "alpha");
     *texture = roughness_picture(*alpha, 0.5, !file.flag(given, "raw"), key, file.at(given), scene.d);
@@ -289,7 +289,7 @@ preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& t
   const char* const name = type == "diffuse"      ? "reflectance"
                            : type == "principled" ? "base_color"
                                                   : "diffuse_reflectance";
-  if ((made.texture = texture_of(scene, node, name, scene::Texels::colours)))
+  if ((made.texture = texture_of(scene, node, name, scatter::Texels::colours)))
     made.reflectance.value = 1;
   else
     made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
@@ -377,7 +377,7 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   if (!refracts) {
     preset::Material& made = scene.d.materials[key] = opaque(scene, node, type, key);
     if (normal_map && type == "diffuse") {
-      const auto map = texture_of(scene, normal_map, "normalmap", scene::Texels::numbers);
+      const auto map = texture_of(scene, normal_map, "normalmap", scatter::Texels::numbers);
       if (!map || map->type != preset::Texture::Type::file)
         scene.d.note(file.at(normal_map), "the normalmap is left out: it is no picture");
       else
@@ -393,7 +393,7 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   if (type == "roughdielectric") glass.roughness = roughness_of(scene, node, key, &glass.roughness_texture);
   if (type == "principled") glass.roughness = std::clamp(plain_number(scene, node, "roughness", 0.5), 0.0, 1.0);
   const char* const tint = through > 0 ? "base_color" : "specular_transmittance";
-  if (through == 0) glass.tint_texture = texture_of(scene, node, tint, scene::Texels::colours);
+  if (through == 0) glass.tint_texture = texture_of(scene, node, tint, scatter::Texels::colours);
   if (file.child(node, tint) && !glass.tint_texture) glass.tint = mitsuba_colour(scene, node, tint, 1);
   if (through > 0 && glass.tint) { // whose root each surface of a principled body takes
     glass.tint->spectrum = values_of(*glass.tint);

@@ -210,11 +210,11 @@ struct ScaledTexture {
 
 /// Of the texture that a parameter names; nothing where it is none that is taken over.
 std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& from, const std::string& name,
-                                        scene::Texels texels, int depth = 0) {
+                                        scatter::Texels texels, int depth = 0) {
   constexpr int deepest = 8; // scales of scales, which may go round in a circle
   const PbrtParameter* given = from.find(name);
   if (!given || given->type != "texture" || given->values.empty()) return std::nullopt;
-  const auto& pictures = texels == scene::Texels::colours ? scene.pictures : scene.numbers;
+  const auto& pictures = texels == scatter::Texels::colours ? scene.pictures : scene.numbers;
   const auto picture_named = pictures.find(given->values[0]);
   if (picture_named == pictures.end()) return std::nullopt;
   const std::string& kind = picture_named->second.type;
@@ -257,7 +257,7 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
     scene.d.note(p.where, "the texture is not " + wrap + " beyond its edges here");
   if (p.text("invert", "false") == "true") scene.d.note(p.where, "the texture is not inverted here");
   made.is_srgb = p.text("encoding", "sRGB") == "sRGB";
-  if (!made.is_srgb && texels == scene::Texels::colours)
+  if (!made.is_srgb && texels == scatter::Texels::colours)
     scene.d.note(p.where, "the texture's integers are taken as sRGB here");
   made.factor = made.factor * p.number("scale", 1);
   auto file =
@@ -275,7 +275,7 @@ double roughness_of(PbrtScene& scene, const PbrtParameters& p, double standard, 
                     std::optional<preset::Texture>* texture) {
   const bool is_remapped = p.text("remaproughness", "true") != "false";
   if (texture && !(scene.is_version_3 && is_remapped))
-    if (const auto values = texture_of(scene, p, "roughness", scene::Texels::numbers)) {
+    if (const auto values = texture_of(scene, p, "roughness", scatter::Texels::numbers)) {
       const double exponent = is_remapped ? 0.25 : 0.5;
       *texture = roughness_picture(values->texture, exponent, values->is_srgb, key, p.where, scene.d);
       if (*texture) return std::pow(std::clamp(linear_srgb_of(values->factor)[1], 0.0, 1.0), exponent);
@@ -317,7 +317,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
     glass.is_ratio = true;
     glass.is_thin = thin;
     glass.roughness = thin ? 0 : roughness_of(scene, p, 0, key, &glass.roughness_texture);
-    if (const auto scaled = texture_of(scene, p, "Kt", scene::Texels::colours)) {
+    if (const auto scaled = texture_of(scene, p, "Kt", scatter::Texels::colours)) {
       glass.tint_texture = scaled->texture;
       glass.tint = scaled->factor;
     } else if (p.find("Kt"))
@@ -332,7 +332,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   preset::Material& made = scene.d.materials[key];
   const auto reflect = [&](const char* name, double standard) {
     if (made.type == preset::Material::Type::diffuse)
-      if (const auto scaled = texture_of(scene, p, name, scene::Texels::colours)) {
+      if (const auto scaled = texture_of(scene, p, name, scatter::Texels::colours)) {
         made.texture = scaled->texture;
         made.reflectance = reflectance_of(scaled->factor);
         return;

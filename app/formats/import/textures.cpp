@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
-#include "scene/texture.h"
+#include "scatter/texture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ namespace {
 
 /// The picture of a texture's numbers. is_srgb: integers are encoded.
 image::Image numbers_of(const preset::Texture& texture, bool is_srgb) {
-  image::Image picture = scene::read_texels(texture.file);
+  image::Image picture = scatter::read_texels(texture.file);
   if (!is_srgb) picture.integers = false;
   picture.chromaticities.reset();
   return {picture.width, picture.height, {"R", "G", "B"}, image::rgb_of(picture, texture.file).values};

@@ -3,7 +3,7 @@
 // and from its upper one in Mitsuba and glTF.
 #pragma once
 #include "formats/import/description.h"
-#include "scene/texture.h"
+#include "scatter/texture.h"
 
 #include <glm/glm.hpp>
 

@@ -25,8 +25,8 @@ std::vector<std::vector<int>> neighbours(int step) {
 std::vector<std::vector<int>> refraction_clusters(const Settings& settings, const scene::Scene& scene) {
   std::vector<optics::Spectrum> curves;
   for (const scene::Object& object : scene.objects) {
-    const scene::Material& material = material_of(scene, object);
-    if (material.type != scene::Material::Type::dielectric) continue;
+    const scatter::Material& material = material_of(scene, object);
+    if (!is_refractive(material.type)) continue;
     if (std::ranges::find(curves, material.n) == curves.end()) curves.push_back(material.n);
   }
   if (!curves.empty() && settings.method == ClusterMethod::brute_force) return neighbours(settings.step_nm);
@@ -88,8 +88,8 @@ std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clus
         scene.objects, [&](const scene::Object& object) { return static_cast<std::size_t>(object.material) == m; });
     if (!used) continue;
     for (const auto& [coefficients, longest] :
-         {std::pair(tracing::loss_inside(scene.materials[m]), 2 * diagonal_m(scene, m)),
-          std::pair(tracing::loss_at_surface(scene.materials[m]), double(reflections))}) {
+         {std::pair(scatter::loss_inside(scene.materials[m]), 2 * diagonal_m(scene, m)),
+          std::pair(scatter::loss_at_surface(scene.materials[m]), double(reflections))}) {
       if (coefficients.empty()) continue;
       std::vector<std::vector<int>> parts;
       for (std::vector<int>& cluster : clusters) split(std::move(cluster), coefficients, longest, most, parts);

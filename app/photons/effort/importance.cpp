@@ -16,7 +16,6 @@ namespace nephroid::photons {
 namespace {
 
 using optics::Spectrum;
-using Type = scene::Material::Type;
 
 /// The corners of the box about an object, and its centre. The corners are drawn in by a thousandth: an object that
 /// stands on a floor has corners of its box in the floor, and they are to see the floor.
@@ -37,8 +36,7 @@ constexpr int rays_per_scene = 9 * 2048, least_rays_per_point = 16;
 /// alike. Rays pass what refracts, as light does, and mirrors that throw the caustics: their own points lie inside.
 std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& bvh, const std::vector<int>& throwers) {
   std::vector<bool> passed(scene.objects.size());
-  for (std::size_t i = 0; i < passed.size(); ++i)
-    passed[i] = material_of(scene, scene.objects[i]).type == Type::dielectric;
+  for (std::size_t i = 0; i < passed.size(); ++i) passed[i] = is_refractive(material_of(scene, scene.objects[i]).type);
   for (const int i : throwers) passed[static_cast<std::size_t>(i)] = true;
   const auto counts = [&](std::uint32_t primitive) { return !passed[scene.object_of_primitive[primitive]]; };
 
@@ -64,7 +62,7 @@ std::vector<double> seen_materials(const scene::Scene& scene, const scene::Bvh& 
 std::vector<double> used_materials(const scene::Scene& scene) {
   std::vector<double> used(scene.materials.size(), 0);
   for (const scene::Object& object : scene.objects)
-    if (!is_empty(object) && material_of(scene, object).type != Type::dielectric)
+    if (!is_empty(object) && !is_refractive(material_of(scene, object).type))
       used[static_cast<std::size_t>(object.material)] = 1;
   return used;
 }
@@ -122,7 +120,7 @@ std::string reason_for_nothing(bool lit, const std::vector<Surrounding>& surroun
 
 WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceGeometry& where,
                                                 std::span<const scene::Light> lights,
-                                                std::span<const scene::Material> materials, const std::string& file) {
+                                                std::span<const scatter::Material> materials, const std::string& file) {
   if (!where.caustics) throw nothing_matters(file, "no object is of glass or a mirror");
   const Spectrum light = sum_of(lights, where.towards);
   Spectrum perfect;
@@ -198,7 +196,7 @@ WavelengthImportance wavelength_importance(const Settings& settings, const scene
 
 WavelengthImportance wavelength_importance(const Settings& settings, const ImportanceGeometry& where,
                                            std::span<const scene::Light> lights,
-                                           std::span<const scene::Material> materials, const std::string& file) {
+                                           std::span<const scatter::Material> materials, const std::string& file) {
   using Effort = Settings::Effort;
   WavelengthImportance result;
   switch (settings.effort) {

@@ -48,7 +48,7 @@ WavelengthImportance wavelength_importance(const Settings& settings, const scene
 /// The same in a fraction of a millisecond. Only the spectra of the lights count. file is for messages.
 WavelengthImportance wavelength_importance(const Settings& settings, const ImportanceGeometry& where,
                                            std::span<const scene::Light> lights,
-                                           std::span<const scene::Material> materials, const std::string& file);
+                                           std::span<const scatter::Material> materials, const std::string& file);
 
 /// The largest u in each cluster, or the mean. Clusters are indices of wavelengths; none is empty.
 std::vector<double> cluster_importance(const optics::Spectrum& u, std::span<const std::vector<int>> clusters,

@@ -2,7 +2,7 @@
 #include "photons/relight/layer_light.h"
 
 #include "photons/effort/emitters.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "tracing/scales.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ LayerLight layer_light(const preset::Preset& preset) {
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
     const preset::Light& l = preset.scene.lights[i];
     light.spectra.push_back(
-        scene::make_light_spectrum(l.spectrum, Location(preset.source) / "scene" / "lights" / i / "spectrum"));
+        scatter::make_light_spectrum(l.spectrum, Location(preset.source) / "scene" / "lights" / i / "spectrum"));
     light.power.push_back(l.type == preset::Light::Type::directional ? l.irradiance_w_m2 : l.power_w);
   }
   if (preset.scene.environment)

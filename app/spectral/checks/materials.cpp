@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pencils of light on metals, tinted glass, panes and coatings by the real engine, against Fresnel and Airy.
-#include "scene/materials.h"
 #include "optics/fresnel.h"
 #include "optics/primary_reflectances.h"
 #include "optics/spectrum.h"
+#include "scatter/spectra.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
 
@@ -34,7 +34,7 @@ preset::Preset onto_mirror(const preset::Material& mirror, double theta, std::ui
 Result metals(const compute::Context& context, std::uint64_t seed) {
   double worst = 0;
   for (const char* metal : {"gold", "silver", "copper", "aluminium", "brass"}) {
-    const optics::DispersionCurve curve = scene::load_dispersion(metal);
+    const optics::DispersionCurve curve = scatter::load_dispersion(metal);
     const optics::Spectrum light = optics::illuminant("D65"),
                            n = optics::sample_n(curve, optics::Extrapolation::automatic),
                            k = optics::sample_k(curve, optics::Extrapolation::automatic);

@@ -3,7 +3,7 @@
 // deviations that follow from the number of photons or samples, so that no seed makes a check fail by chance.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
 
@@ -149,7 +149,7 @@ Result through_a_lens(const compute::Context& context, std::uint64_t seed, bool 
         y += e * down;
         squares += e * (right * right + down * down);
       }
-    const double power = sum * pi / (size * size) / optics::to_xyz(scene::make_light_spectrum(light.spectrum, {}))[1];
+    const double power = sum * pi / (size * size) / optics::to_xyz(scatter::make_light_spectrum(light.spectrum, {}))[1];
     // Of the disc, of the lens's image and of a pixel: the mean squares of the distance from the middle.
     const double disc2 = 1 / std::cos(half_angle) - 1, image2 = std::pow(radius * (1 - depth / focus), 2) / 2,
                  spread = disc2 + image2 + 1.0 / (6 * size * size);

@@ -4,7 +4,7 @@
 #include "base/files.h"
 #include "optics/dispersion.h"
 #include "photons/clusters/scene_clusters.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "scene/scene.h"
 #include "spectral/settings.h"
 
@@ -131,8 +131,8 @@ GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::str
   glass_curve.points = dispersion.type == preset::Dispersion::Type::points;
   try {
     const FileFinder finder(std::filesystem::path(preset_source).parent_path());
-    const optics::DispersionCurve data = scene::make_curve(dispersion, finder, where);
-    const optics::Extrapolation outside = scene::outside_policy(dispersion.outside);
+    const optics::DispersionCurve data = scatter::make_curve(dispersion, finder, where);
+    const optics::Extrapolation outside = scatter::outside_policy(dispersion.outside);
     glass_curve.name = data.name;
     glass_curve.data_nm = data.range_nm();
     make_lines(data, outside, glass_curve); // also where it cannot be rendered: the person sees where it goes wrong
@@ -200,8 +200,8 @@ void DispersionModel::combine(const preset::Preset& preset) {
     if (!glass.error.empty() || (settings.relight && glass.has_k))
       return; // layers also hang on the lengths of paths in what absorbs
     outline.objects.emplace_back().material = static_cast<int>(outline.materials.size());
-    scene::Material& material = outline.materials.emplace_back();
-    material.type = scene::Material::Type::dielectric;
+    scatter::Material& material = outline.materials.emplace_back();
+    material.type = scatter::Material::Type::dielectric;
     material.n = glass.n;
   }
   if (outline.objects.empty() || !error_.empty()) return;

@@ -7,7 +7,7 @@
 #include "optics/spectrum.h"
 #include "photons/clusters/scene_clusters.h"
 #include "photons/effort/effort.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 #include "spectral/settings.h"
 #include "tracing/omissions.h"
 #include "tracing/wavelength_tables.h"
@@ -28,7 +28,7 @@ using optics::wavelength_count;
 LightCurve make_curve(const preset::LightSpectrum& spectrum) {
   LightCurve curve;
   try {
-    curve.spectrum = scene::make_light_spectrum(spectrum, {});
+    curve.spectrum = scatter::make_light_spectrum(spectrum, {});
     curve.largest = *std::max_element(curve.spectrum.begin(), curve.spectrum.end());
   } catch (const Error& error) {
     curve.error = error.text();
@@ -69,7 +69,7 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline) {
   std::vector<std::string> warnings; // the run's plan has them
   for (const auto& [name, material] : preset.scene.materials)
     outline.materials.push_back(
-        scene::make_material(name, material, finder, Location("scene/materials/" + name), warnings));
+        scatter::make_material(name, material, finder, Location("scene/materials/" + name), warnings));
   for (const preset::Object& object : preset.scene.objects) {
     const auto found = preset.scene.materials.find(object.material);
     if (found == preset.scene.materials.end())
@@ -102,7 +102,7 @@ std::vector<double> importance_of(const photons::Settings& settings, const Spect
 std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset, const scene::Scene& scene,
                                                    const scene::Bvh& bvh) {
   auto seen = std::make_shared<SeenByGlass>();
-  for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
+  for (const scatter::Material& material : scene.materials) seen->materials.push_back(material.name);
   for (std::size_t i = preset.scene.lights.size(); i < scene.lights.size(); ++i)
     seen->surroundings.push_back(scene.lights[i]);
   seen->importance_geometry = photons::importance_geometry(spectral::settings(preset), scene, bvh);
@@ -169,11 +169,11 @@ void SpectraMaker::make_materials(const preset::Preset& now) {
     return;
   }
   for (std::size_t i = 0; i < outline_.materials.size(); ++i) {
-    const scene::Material& material = outline_.materials[i];
+    const scatter::Material& material = outline_.materials[i];
     spectra_.materials.push_back(material.name);
     const bool used = std::any_of(outline_.objects.begin(), outline_.objects.end(),
                                   [&](const scene::Object& object) { return object.material == static_cast<int>(i); });
-    if (used && material.type != scene::Material::Type::dielectric)
+    if (used && !is_refractive(material.type))
       spectra_.reflectances.push_back({material.name, material.reflectance, colour_of(material.reflectance)});
   }
 }

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "preset/field.h"
-#include "scene/materials.h"
+#include "scatter/spectra.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double relative_power(const optics::Spectrum& values, int nm) {
 
 optics::Spectrum values_of(const LightSpectrum& spectrum) {
   try {
-    return scene::make_light_spectrum(spectrum, {});
+    return scatter::make_light_spectrum(spectrum, {});
   } catch (const Error&) {
     optics::Spectrum flat;
     flat.fill(1);

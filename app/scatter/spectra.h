@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a preset's materials and spectra, which are words and numbers, to values on the 401 wavelengths.
+// From a preset's spectra and indices of refraction, which are words and numbers, to values on the 401 wavelengths.
 #pragma once
+#include "base/error.h"
 #include "base/files.h"
 #include "optics/dispersion.h"
 #include "optics/wavelength.h"
 #include "preset/preset.h"
-#include "scene/scene.h"
 
+#include <optional>
 #include <set>
 
-namespace nephroid::scene {
+namespace nephroid::scatter {
+
+/// What optics throws names a curve or a file; the person needs the preset's field as well.
+template <class Make>
+auto at(const Location& where, const Make& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    if (error.location() == where) throw;
+    throw Error(error.kind(), where, error.line());
+  }
+}
 
 /// The preset's words for it, which knows nothing of optics, are the same in the same order.
 inline optics::Extrapolation outside_policy(preset::Extrapolation outside) {
@@ -37,20 +49,12 @@ std::vector<ShippedMaterial> read_shipped_materials();
 /// The dispersion that a person names: a file, else a shipped material. Throws bad_input naming the folders searched.
 optics::DispersionCurve load_dispersion(const std::string& name);
 
-/// where (all four): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
+/// where (all three): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder,
                                    const Location& where);
 /// Sums to 1.
 optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where);
 /// Each value in 0..1.
 optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where);
-/// The most by which a conductor's reflectance may be off (optics/conductor.h).
-inline constexpr double most_conductor_error = 0.01;
 
-/// where: the material's. Throws bad_input for a pane with a coating or a roughness, for a conductor without k, or
-/// whose reflectance three terms cannot hold (optics/conductor.h), for a plastic's coat whose index is not 1 to 4. Adds
-/// a warning where n is wanted outside the data's range.
-Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
-                       const Location& where, std::vector<std::string>& warnings);
-
-} // namespace nephroid::scene
+} // namespace nephroid::scatter

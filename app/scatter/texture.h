@@ -15,7 +15,7 @@ namespace nephroid::image {
 struct Image;
 }
 
-namespace nephroid::scene {
+namespace nephroid::scatter {
 
 struct Texture {
   int width = 0, height = 0;
@@ -45,4 +45,4 @@ Texture make_texture(const preset::Texture& texture, Texels texels, const FileFi
 Texture make_normal_map(const preset::Texture& texture, double scale, const FileFinder& finder, const Location& where,
                         const std::string& owner, std::vector<std::string>& warnings);
 
-} // namespace nephroid::scene
+} // namespace nephroid::scatter

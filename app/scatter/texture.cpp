@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/texture.h"
+#include "scatter/texture.h"
 
 #include "base/counted.h"
 #include "image/image.h"
@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-namespace nephroid::scene {
+namespace nephroid::scatter {
 namespace {
 
 std::uint16_t texel(double value) {
@@ -148,4 +148,4 @@ Texture make_normal_map(const preset::Texture& texture, double scale, const File
   return map;
 }
 
-} // namespace nephroid::scene
+} // namespace nephroid::scatter

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the file of a type of material says of it: a constant Kind by the type's word, which the list MATERIALS
+// (kernels/scatter/material_types.h) finds. Here are also the words that several of these files share.
+#pragma once
+#include "optics/dispersion.h"
+#include "preset/describe.h"
+#include "scatter/material.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace nephroid::scatter {
+
+/// A preset's material on its way to a loaded one.
+struct Loading {
+  const preset::Material& from;
+  const FileFinder& finder;
+  const Location& where;
+  std::string owner; ///< "material 'wall'"
+  std::vector<std::string>& warnings;
+
+  void warn(const std::string& note) const;
+  /// Calls sample(curve, what to do outside of its range), at the field, and warns of what is outside.
+  void curve(const preset::Dispersion& dispersion, const Location& field,
+             const std::function<void(const optics::DispersionCurve&, optics::Extrapolation)>& sample) const;
+  optics::Spectrum spectrum(const preset::Reflectance& reflectance, const char* field) const;
+  std::shared_ptr<const Texture> picture(const std::optional<preset::Texture>& texture, Texels texels,
+                                         const char* field) const;
+  /// Loads the roughness and its texture.
+  void roughness(Material& material) const;
+};
+
+/// A material's row on its way into the tables.
+struct Rows {
+  DeviceMaterials& tables;
+  shared::DeviceMaterial& row;
+
+  /// Adds a row of losses and returns its number; -1 for none.
+  int loss(std::span<const double> coefficients);
+  /// The row of what roughness and coats take, which all materials share.
+  int masking();
+  /// Adds the rows of a surface that a texture may lie on, and returns the first one's number. factor: of its colour.
+  int colour(const optics::Spectrum& colour, double factor, bool is_textured);
+  /// Adds items to the table surface_data, and returns where the first one stands.
+  int data(std::span<const double> values);
+};
+
+struct Kind {
+  std::string_view sentence; ///< for the schema and the window
+  void (*describe)(preset::Fields& v, preset::Material& m);
+  void (*load)(const Loading& loading, Material& material);
+  void (*add_rows)(const Material& material, Rows& rows);
+  GltfSurface (*gltf)(const Material& material);
+};
+
+namespace kinds {
+#define NEPHROID_MATERIAL_KIND(word, NAME, lobes) extern const Kind word;
+MATERIALS(NEPHROID_MATERIAL_KIND)
+#undef NEPHROID_MATERIAL_KIND
+} // namespace kinds
+
+const Kind& kind_of(preset::Material::Type type);
+
+// Fields that several types have.
+void describe_reflectance(preset::Fields& v, preset::Material& m);
+void describe_texture(preset::Fields& v, preset::Material& m);
+void describe_roughness(preset::Fields& v, preset::Material& m);
+void describe_roughness_texture(preset::Fields& v, preset::Material& m);
+
+/// Of a polished or rough metal.
+GltfSurface gltf_metal(const Material& material);
+
+} // namespace nephroid::scatter
