@@ -57,10 +57,10 @@ struct alignas(8) uint2 {
 #define OUTCOME_SEGMENTS 7  // a plain count: rays that the photons' paths are made of
 #define OUTCOME_COUNT 8
 
-// The rows of losses that a metal has: materials/conductor.h.
+// The rows of losses that a metal has: scatter/conductor.h.
 #define CONDUCTOR_TERMS 3
 
-// What the table surface_data has of a plastic's coat (materials/plastic.h): its index of refraction, the part of light
+// What the table surface_data has of a plastic's coat (scatter/plastic.h): its index of refraction, the part of light
 // from all sides that passes it; then the part that passes it by the cosine of the way, at COAT_COSINES cosines from 0
 // to 1.
 #define COAT_MEAN 1
@@ -76,9 +76,9 @@ typedef struct {
   int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none
   float coating_nm;    // dielectric: thickness of its coating
   int is_thin;         // dielectric: a pane without thickness
-  float alpha;         // of GGX (materials/rough.h); 0: polished
+  float alpha;         // of GGX (scatter/microfacet.h); 0: polished
   int masking;         // rough, plastic, tint with a texture: row of the attenuation table, 1 at all wavelengths
-  int texture;         // of its reflectance or tint: number of a texture (materials/texture.h); -1: none
+  int texture;         // of its reflectance or tint: number of a texture (scatter/texture.h); -1: none
   int roughness_texture; // the same of its roughness
   int normal_map;        // the same of its normals
 } DeviceMaterial;
@@ -94,7 +94,7 @@ typedef struct {
 #define WRAP_MIRROR 1
 #define WRAP_CLAMP 2
 
-// A picture on a surface: materials/texture.h.
+// A picture on a surface: scatter/texture.h.
 typedef struct {
   uint first;        // of its texels in the table
   int width, height;
