@@ -55,7 +55,7 @@ std::vector<float> channel_cdf() {
   for (const auto channel : {&shared::float4::x, &shared::float4::y, &shared::float4::z}) {
     std::vector<double> chances;
     for (const shared::float4& rgb : light) chances.push_back(std::max(rgb.*channel, 0.0F));
-    const std::vector<float> own = tracing::exact_cdf(chances);
+    const std::vector<float> own = exact_cdf(chances);
     cdf.insert(cdf.end(), own.begin(), own.end());
   }
   return cdf;

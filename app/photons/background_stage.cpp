@@ -49,7 +49,7 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
     const optics::Colour xyz = optics::to_xyz(primary);
     tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
   }
-  tables.spectrum_cdf = tracing::exact_cdf(weights);
+  tables.spectrum_cdf = exact_cdf(weights);
   // A mean texel has 2^24 quanta; all samples of a pixel together stay within 63 bits.
   const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) /
                       static_cast<double>(environment.rgb.size());

@@ -16,8 +16,7 @@ class EvenSkyStage final : public EyeStage {
 public:
   EvenSkyStage(StageContext& world, const scene::Scene&, const Settings& settings)
       : EyeStage(world, "even sky", "caustic", settings, bounces),
-        light_(static_cast<int>(std::ranges::find(world.tables.lights, LIGHT_ENVIRONMENT, &shared::DeviceLight::type) -
-                                world.tables.lights.begin())),
+        light_(static_cast<int>(world.tables.lights.size()) - 1),
         kernel_(compute::Program(world.context, "photons/even_sky.cl", world.eye_defines()).kernel("even_sky")) {}
 
 private:
@@ -26,7 +25,7 @@ private:
                {{"light_index", light_}, {"film_scale", world_.on_device(world_.tables.direct_scale)}}, more);
   }
 
-  int light_; ///< index of the environment in the table of lights
+  int light_; ///< index of the environment in the table of lights: the last one
   compute::Kernel kernel_;
 };
 

@@ -2,6 +2,7 @@
 // Photons of the layer "indirect": kernels/photons/indirect_photons.cl. They are splatted, and stored in a map for what
 // glass and mirrors show.
 #include "base/counted.h"
+#include "lights/lights.h"
 #include "optics/colour.h"
 #include "photons/effort/emitters.h"
 #include "photons/maps/map_film.h"
@@ -40,11 +41,6 @@ std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, co
   return weights;
 }
 
-/// As the function of that name in kernels/lights/light.h.
-bool is_narrow(const shared::DeviceLight& light) {
-  return light.type == LIGHT_SPOT && light.one_minus_cos < NARROW_SPOT;
-}
-
 struct IndirectTables {
   std::vector<shared::DeviceEmitter>
       emitters;                    ///< photons of one pass: an emitter for each light; cluster and share are unused
@@ -74,10 +70,10 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& 
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
     const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
-    const double sent = is_narrow(tables.lights[l]) ? light.power_w : tables.towards_targets_w[l];
+    const double sent = lights::is_narrow(tables.lights[l]) ? light.power_w : tables.towards_targets_w[l];
     sources.push_back({sent * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
     result.watts += sent;
-    const std::vector<float> cdf = tracing::exact_cdf(weights);
+    const std::vector<float> cdf = exact_cdf(weights);
     result.spectrum_cdf.insert(result.spectrum_cdf.end(), cdf.begin(), cdf.end());
   }
   result.emitters = make_emitters(sources, photons);
@@ -209,7 +205,7 @@ private:
 PlanPart plan_indirect_photons(const PlanInput& input) {
   if (!indirect_decision(input).runs) return {};
   const bool caustics = input.objects.throw_caustics() && !input.tables.emitters.empty();
-  const bool narrow = std::ranges::any_of(input.tables.lights, is_narrow);
+  const bool narrow = std::ranges::any_of(input.tables.lights, lights::is_narrow);
   if (!caustics && !narrow) return {};
   plan::Decision decision{
       "indirect photons", true,

@@ -3,6 +3,7 @@
 #include "photons/plan.h"
 
 #include "base/counted.h"
+#include "lights/lights.h"
 #include "photons/describe_settings.h"
 #include "photons/effort/effort.h"
 #include "photons/plan_part.h"
@@ -184,7 +185,8 @@ std::string why_points(const Settings& wanted, const scene::Scene& scene) {
     return "spectral.method, effort, jitter or low_discrepancy ask for points";
   if (scene.environment && scene.environment->lights && !scene.environment->is_black())
     return "an environment has too many directions: a lattice for each would be coarse";
-  if (std::ranges::any_of(scene.lights, scene::has_size))
+  if (std::ranges::any_of(
+          scene.lights, [](const scene::Light& light) { return !is_environment(light) && lights::has_places(light); }))
     return "a lamp of a size has too many places: a lattice for each would be coarse";
   if (tracing::count_objects(scene).mirrors > 0) return "mirrors spread a cell too far";
   if (tracing::may_see_glass_or_mirror(scene)) return "the camera sees glass: photon maps have more noise than splats";

@@ -127,8 +127,8 @@ void check_environment(const Environment& e, const std::string& pointer, const W
 void check_light(const Light& l, const Scene& scene, const std::string& pointer, const Where& where) {
   check_spectrum(l.spectrum, child(pointer, "spectrum"), where);
   if (is_directed(l)) check_direction(l.direction, child(pointer, "direction"), where);
-  if (l.type == Light::Type::area || l.photometry) check_up(l.up, l.direction, child(pointer, "up"), where);
-  if (l.type != Light::Type::mesh) return;
+  if (is_framed(l)) check_up(l.up, l.direction, child(pointer, "up"), where);
+  if (!has(l.type, LIGHT_HAS_OBJECT)) return;
   std::vector<std::string> names;
   for (const Object& object : scene.objects)
     if (!object.name.empty()) names.push_back(object.name);

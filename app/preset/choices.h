@@ -73,11 +73,9 @@ inline constexpr Choice<Object::Normals> choices<Object::Normals>[] = {
 
 template <>
 inline constexpr Choice<Light::Type> choices<Light::Type>[] = {
-    {Light::Type::point, "point", "A point that shines equally to all sides."},
-    {Light::Type::spot, "spot", "A point that shines into a cone."},
-    {Light::Type::directional, "directional", "Parallel light, as from the sun."},
-    {Light::Type::area, "area", "A rectangle that shines to one side by the cosine law."},
-    {Light::Type::mesh, "mesh", "An object whose surface shines evenly to its outside by the cosine law."}};
+#define NEPHROID_LIGHT_CHOICE(word, NAME, Row, has, sentence) {Light::Type::word, #word, sentence},
+    LIGHTS(NEPHROID_LIGHT_CHOICE)};
+#undef NEPHROID_LIGHT_CHOICE
 
 template <>
 inline constexpr Choice<Camera::Projection> choices<Camera::Projection>[] = {

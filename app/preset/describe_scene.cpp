@@ -171,47 +171,6 @@ void describe(Fields& v, Object& o) {
           o.priority, {.bounds = within(-1000000, 1000000)});
 }
 
-void describe(Fields& v, Light& l) {
-  v.about("Light", "A source of light.");
-  using Type = Light::Type;
-  v.type("type", "What kind of source.", l.type);
-  v.field("spectrum", "A CIE illuminant by name, or an object.", l.spectrum);
-  if (l.type == Type::directional) {
-    v.field("irradiance_w_m2", "Irradiance of 380 to 780 nm on a plane that faces the light.", l.irradiance_w_m2,
-            {.unit = "W/m^2", .bounds = power_bounds});
-    v.field("angular_diameter_deg", "Of the disc that the light comes from: 0.53 for the sun, 0 for a point.",
-            l.angular_diameter_deg, {.unit = "degrees", .bounds = within(0, 10)});
-  } else {
-    v.field("power_w", "Radiant power of 380 to 780 nm.", l.power_w, {.unit = "W", .bounds = power_bounds});
-  }
-  if (l.type == Type::mesh)
-    return v.field("object", "The name of the object whose surface shines.", l.object,
-                   {.text = Text::line, .names = Names::object, .required = true});
-  if (l.type != Type::directional)
-    v.field("position", "Where it is; of an area light its centre.", l.position,
-            {.unit = length_unit, .bounds = position_bounds});
-  if (l.type == Type::point) {
-    v.field("photometry",
-            "An IES (LM-63) or EULUMDAT file: how the light is spread over directions. power_w is all of it, whatever "
-            "the file's lumens.",
-            l.photometry, {.text = Text::file});
-    v.field("direction", "With photometry: where the file's gamma = 0, straight down, is; any length but 0.",
-            l.direction, {.bounds = position_bounds});
-    v.field("up", "With photometry: where the file's plane C = 0 is, as far as the direction allows.", l.up,
-            {.bounds = position_bounds});
-  } else
-    v.field("direction", "The way the light goes; any length but 0.", l.direction, {.bounds = position_bounds});
-  if (l.type == Type::spot)
-    v.field("half_angle_deg", "Between the cone's axis and its edge: constant intensity inside, none outside.",
-            l.half_angle_deg, {.unit = "degrees", .bounds = within(0.01, 180)});
-  if (l.type == Type::area) {
-    v.field("size", "Edge lengths.", l.size, {.unit = length_unit, .bounds = length_bounds});
-    v.field("up", "Along the second edge, as far as the direction allows.", l.up, {.bounds = position_bounds});
-    v.field("picture", "A picture: how the light is spread over the rectangle, by luminance; its top is at up.",
-            l.picture, {.text = Text::file});
-  }
-}
-
 void describe(Fields& v, Camera& c) {
   v.about("Camera", "A pinhole camera, or one with a thin lens.");
   v.field("position", "Where it stands.", c.position, {.unit = length_unit, .bounds = position_bounds});

@@ -2,6 +2,7 @@
 // The preset: the whole state of a run as plain structs. Fields, units, ranges, defaults and sentences are described
 // once, in describe.h; reading, writing, --set, the schema, the editor and the docs are visitors over that description.
 #pragma once
+#include "kernels/lights/light_types.h"
 #include "kernels/scatter/material_types.h"
 #include "preset/settings.h"
 
@@ -168,7 +169,9 @@ struct Object {
 };
 
 struct Light {
-  enum class Type { point, spot, directional, area, mesh };
+#define NEPHROID_LIGHT_WORD(word, NAME, Row, has, sentence) word,
+  enum class Type { LIGHTS(NEPHROID_LIGHT_WORD) };
+#undef NEPHROID_LIGHT_WORD
   Type type = Type::point;
   LightSpectrum spectrum;
   double power_w = 1;               ///< all but directional: radiant power of 380..780 nm
@@ -185,10 +188,21 @@ struct Light {
   bool operator==(const Light&) const = default;
 };
 
-/// Whether it has a direction.
-inline bool is_directed(const Light& l) {
-  return (l.type != Light::Type::point && l.type != Light::Type::mesh) || l.photometry;
+/// Whether a light has one of HAS_* of kernels/lights/light_types.h.
+constexpr bool has(Light::Type type, unsigned what) {
+#define NEPHROID_LIGHT_HAS(word, NAME, Row, has, sentence) has,
+  constexpr unsigned of_type[] = {LIGHTS(NEPHROID_LIGHT_HAS)};
+#undef NEPHROID_LIGHT_HAS
+  return (of_type[static_cast<std::size_t>(type)] & what) != 0;
 }
+
+inline bool is_directed(const Light& l) { return has(l.type, LIGHT_HAS_DIRECTION) || l.photometry; }
+
+/// Whether it also has an `up`.
+inline bool is_framed(const Light& l) { return has(l.type, LIGHT_HAS_EDGES) || l.photometry; }
+
+/// W, or W m^-2.
+inline double radiometric(const Light& l) { return has(l.type, LIGHT_HAS_IRRADIANCE) ? l.irradiance_w_m2 : l.power_w; }
 
 struct Camera {
   enum class Projection { perspective, orthographic };

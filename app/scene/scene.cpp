@@ -111,57 +111,6 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   scene.objects.push_back(result);
 }
 
-/// A lamp of a size that reaches through a surface has points inside and outside; its photons all start in what is
-/// around its centre, or around the first place of a mesh.
-void warn_if_straddling(Scene& scene, const Light& light, std::size_t index) {
-  std::vector<glm::dvec3> places;
-  if (light.type == preset::Light::Type::area)
-    for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
-      places.emplace_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
-  if (light.object >= 0) places = places_of_mesh(scene, scene.objects[static_cast<std::size_t>(light.object)]);
-  for (const glm::dvec3& p : places) {
-    std::vector<int> around = dielectrics_around(scene, p);
-    std::erase(around, light.object);
-    if (around == light.inside) continue;
-    scene.warnings.push_back(
-        fmt::format("light {}: reaches through the surface of a dielectric; its rays start in what is around its {}",
-                    index, light.object >= 0 ? "first triangle" : "centre"));
-    return;
-  }
-}
-
-/// Places on a rectangle are drawn uniformly. Of one much larger than the scene hardly any is near enough to matter.
-void warn_if_wide(Scene& scene, const Light& light, std::size_t index) {
-  const double size = std::max(glm::length(light.edge_u), glm::length(light.edge_v)), radius = scene_radius(scene);
-  if (light.type == preset::Light::Type::area && radius > 0 && size > 50 * radius)
-    scene.warnings.push_back(fmt::format(
-        "light {}: is {:.3g} times as wide as the scene: nearly all of its samples are too far away to matter, "
-        "and the picture is dark but for rare bright dots; make it smaller, or take directional light",
-        index, size / (2 * radius)));
-}
-
-/// W/m^2 at the scene's radius, or in a spot's cone there.
-double typical_irradiance(const Scene& scene, const Light& light) {
-  if (light.type == preset::Light::Type::directional) return light.irradiance_w_m2;
-  const double metres = scene_radius(scene) * scene.metres_per_unit;
-  const double half_angle_share = light.type == preset::Light::Type::spot ? (1 - light.cos_half_angle) / 2 : 1;
-  return light.power_w / (4 * std::numbers::pi * metres * metres * half_angle_share);
-}
-
-/// Films hold some 2^40 between the strongest and the weakest light that is to be seen without noise of their own.
-void warn_of_faint_lights(Scene& scene) {
-  double strongest = 0;
-  for (const Light& light : scene.lights) strongest = std::max(strongest, typical_irradiance(scene, light));
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const double share = typical_irradiance(scene, scene.lights[i]) / strongest;
-    if (share > 0 && share < 0x1p-30)
-      scene.warnings.push_back(fmt::format(
-          "{}: is {:.2g} of the strongest light, less than the film's numbers resolve: what it lights alone is "
-          "noise; render it in a run of its own",
-          is_environment(scene.lights[i]) ? "environment" : fmt::format("light {}", i), share));
-  }
-}
-
 } // namespace
 
 double scene_radius(const Scene& scene) {
@@ -241,11 +190,8 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
       scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
   part_touching(scene);
-  for (std::size_t i = 0; i < preset.scene.lights.size(); ++i) {
-    scene.lights.push_back(make_light(preset.scene.lights[i], scene, finder, where / "lights" / i, scene.warnings));
-    warn_if_straddling(scene, scene.lights.back(), i);
-    warn_if_wide(scene, scene.lights.back(), i);
-  }
+  for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
+    add_light(preset.scene.lights[i], finder, where / "lights" / i, scene);
   if (preset.scene.environment) {
     if (std::optional<Light> sun = make_sun(*preset.scene.environment, where / "environment"))
       scene.lights.push_back(std::move(*sun));

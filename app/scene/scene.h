@@ -15,6 +15,10 @@
 
 namespace nephroid::scene {
 
+inline shared::float4 to_float4(const glm::dvec3& v, double w = 0) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
+
 inline glm::dvec3 to_dvec3(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
 inline preset::Vec3 to_vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -73,11 +77,6 @@ inline double radiometric(const Light& light) { return light.power_w + light.irr
 
 /// Whether directional light comes from more than a point.
 inline bool has_disc(const Light& light) { return light.one_minus_cos > 0; }
-
-/// Whether a lamp's light comes from more than a point: of a rectangle, an object or a disc.
-inline bool has_size(const Light& light) {
-  return light.type == preset::Light::Type::area || light.object >= 0 || has_disc(light);
-}
 
 inline bool is_environment(const Light& light) { return !light.primaries.empty(); }
 
@@ -184,15 +183,13 @@ glm::dmat3 rotation(const preset::Vec3& rotate_deg);
 /// The camera alone, for a view that changes while everything else stays. Throws bad_input at FILE#/scene/camera/...
 Camera make_camera(const preset::Camera& camera, const Scene& scene);
 
-/// scene: with its objects, and the lights before this one, which share their files. warnings: what a file says and is
-/// not obeyed. where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of
-/// range, unknown spectrum, an object without a surface; and at a file that is not there or no photometry or picture.
-Light make_light(const preset::Light& light, const Scene& scene, const FileFinder& finder, const Location& where,
-                 std::vector<std::string>& warnings);
+/// Adds a light, and warnings of it. scene: with its objects. where: FILE#/scene/lights/INDEX. Throws bad_input there:
+/// no direction, power, size or angle out of range, unknown spectrum, an object without a surface; and at a file that
+/// is not there or no photometry or picture. app/lights has this and the next one.
+void add_light(const preset::Light& light, const FileFinder& finder, const Location& where, Scene& scene);
 
-/// A mesh light's places to look at, scene coordinates, just outside of its surface: at most 64, even over its
-/// triangles.
-std::vector<glm::dvec3> places_of_mesh(const Scene& scene, const Object& object);
+/// Of what is much fainter than the strongest light.
+void warn_of_faint_lights(Scene& scene);
 
 /// The surface of a shape of preset.h, centred by its bounds on the origin, y up, with normals. Flat facets have
 /// vertices of their own, so their normals are exact; curved sides share theirs. quad: open, size x by z in the plane y

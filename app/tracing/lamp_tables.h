@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of lamps that are a mesh, have a picture or photometry (kernels/lights/lamp.h).
+// The tables of lamps that are a mesh, have a picture or photometry (app/lights).
 #pragma once
 #include "tracing/scene_tables.h"
 
@@ -17,8 +17,5 @@ std::shared_ptr<const LampTables> make_lamp_tables(const scene::Scene& scene,
 
 /// Where kernels have a lamp shine from, for the two numbers of its place, in [0, 1). light: index into tables.lights.
 glm::dvec3 lamp_place(const SceneTables& tables, int light, float x, float y);
-
-/// Of a point with photometry: the part of its light that goes towards the spheres, or somewhat more.
-double photometric_share(const scene::Light& light, const std::vector<scene::Sphere>& targets);
 
 } // namespace nephroid::tracing

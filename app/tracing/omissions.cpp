@@ -2,6 +2,7 @@
 #include "tracing/omissions.h"
 
 #include "base/counted.h"
+#include "lights/lights.h"
 #include "preset/choices.h"
 #include "scene/scene.h"
 #include "tracing/targets.h"
@@ -75,12 +76,9 @@ unsigned material_type_bits(const scene::Scene& scene) {
 /// Types of light that the scene has.
 unsigned light_type_bits(const scene::Scene& scene) {
   unsigned bits = 0;
-  for (const scene::Light& light : scene.lights) bits |= 1u << device_light_type(light);
+  for (const scene::Light& light : scene.lights) bits |= 1u << lights::type_of(light);
   return bits;
 }
-
-/// A mesh becomes an area light at each of its places (kernels/lights/lamp.h).
-unsigned types_in_kernels(unsigned types) { return (types >> LIGHT_MESH & 1) != 0 ? types | 1u << LIGHT_AREA : types; }
 
 bool has_picture(const scene::Light& light) { return light.picture != nullptr; }
 bool has_photometry(const scene::Light& light) { return light.photometry != nullptr; }
@@ -88,7 +86,7 @@ bool has_photometry(const scene::Light& light) { return light.photometry != null
 std::string light_types_reason(unsigned bits) {
   std::vector<std::string_view> names;
   for (const auto& choice : preset::choices<preset::Light::Type>)
-    if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
+    if (bits >> static_cast<int>(choice.value) & 1) names.push_back(choice.name);
   if (bits >> LIGHT_ENVIRONMENT & 1) names.push_back("environment");
   return names.empty() ? "there is no light" : fmt::format("every light is of type {}", fmt::join(names, " or "));
 }
@@ -149,7 +147,7 @@ std::vector<plan::Decision> data_omissions(const LeaveOut& leave_out, const scen
   std::size_t dark = 0, ways = 0, unreached = 0;
   for (const scene::Light& light : scene.lights) {
     dark += !has_power(light);
-    for (const scene::Sphere& target : targets) ++ways, unreached += !reaches(light, target);
+    for (const scene::Sphere& target : targets) ++ways, unreached += !lights::model(light).reaches(light, target);
   }
   add("dark lights", leave_out.dark_lights, dark,
       fmt::format("{} of {} without power", dark, counted(scene.lights.size(), "light")));
@@ -198,7 +196,8 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
   omissions.defines = {
       {"NEPHROID_OCCLUSION", flag(occlusion)},
-      {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types_in_kernels(types))},
+      {"NEPHROID_LIGHT_TYPES", std::to_string(every_type ? all_light_types : types)},
+      {"NEPHROID_SKY_IS_LIGHT", flag(every_type || (types >> LIGHT_ENVIRONMENT & 1) != 0)},
       {"NEPHROID_DISCS", flag(std::ranges::any_of(scene.lights, scene::has_disc) || !leave_out.light_types)},
       {"NEPHROID_MATERIALS", std::to_string(materials)},
       {"NEPHROID_BENDING", flag(bending)},

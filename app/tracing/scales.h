@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scales: how many quanta of a film's or counter's fixed point a unit has. A usual value lies in the middle of 63 bits,
-// so values may be far brighter or fainter. All scales are powers of two, so that they round nothing. And tables by
-// which a device chooses among a few hundred things with one random number.
+// so values may be far brighter or fainter. All scales are powers of two, so that they round nothing.
 #pragma once
+#include "base/exact_cdf.h"
 #include "scene/scene.h"
 
 #include <array>
@@ -27,13 +27,6 @@ double splat_scale(const scene::Scene& scene, unsigned photons, double watts);
 double energy_scale(double watts);
 /// The mean of an energy counter over `passes`, which includes the part of the pass in hand; 0 before the first.
 double mean_watts(std::int64_t quanta, double quanta_per_watt, double passes);
-
-/// Running sums of weights in whole multiples of 2^-24, from the first weight to 1. A random number of the device is
-/// such a multiple too, so the difference of two sums is exactly the chance. Every positive weight has a chance.
-std::vector<float> exact_cdf(const std::vector<double>& weights);
-
-/// exact_cdf with a 0 in front: one number more than there are weights.
-std::vector<float> exact_cdf_from_zero(const std::vector<double>& weights);
 
 /// The worth of light, by which paths are divided before anything is measured. seen: what the eye makes of it, (X + Y +
 /// Z) / 3. power: a twentieth of it counts too, so that light which the eye hardly sees has paths.

@@ -2,6 +2,7 @@
 #include "tracing/scene_tables.h"
 
 #include "base/parallel.h"
+#include "lights/lights.h"
 #include "tracing/lamp_tables.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
@@ -36,18 +37,9 @@ shared::Media to_media(const std::vector<int>& inside, const Location& where) {
 }
 
 shared::DeviceLight device_light(const scene::Light& light, double power_unit, const Location& where) {
-  shared::DeviceLight out{};
-  out.position = to_float4(light.position);
-  out.direction = to_float4(light.direction);
-  out.edge_u = to_float4(light.edge_u);
-  out.edge_v = to_float4(light.edge_v);
-  out.type = device_light_type(light);
-  const bool spot = light.type == preset::Light::Type::spot;
-  out.one_minus_cos = static_cast<float>(spot ? 1 - light.cos_half_angle : light.one_minus_cos);
-  out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
+  shared::DeviceLight out = lights::row_of(light);
   out.radiometric = static_cast<float>(scene::radiometric(light) / power_unit);
   out.inside = to_media(light.inside, where / (light.object < 0 ? "position" : "object"));
-  out.table = -1;
   return out;
 }
 
@@ -91,10 +83,10 @@ void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, co
       device_light(light, tables.power_unit, Location(scene.source) / "scene" / "lights" / number);
   out.number = number;
   if (leave_out.unreached_targets)
-    std::erase_if(targets, [&](const scene::Sphere& target) { return !reaches(light, target); });
+    std::erase_if(targets, [&](const scene::Sphere& target) { return !lights::model(light).reaches(light, target); });
   set_targets(out, targets, tables);
   tables.lights.push_back(out);
-  tables.towards_targets_w.push_back(towards_targets_w(light, targets, scene.metres_per_unit));
+  tables.towards_targets_w.push_back(lights::model(light).towards_w(light, targets, scene.metres_per_unit));
 }
 
 /// A power of two near the power of the strongest light.
@@ -293,21 +285,6 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& 
   return out;
 }
 
-int device_light_type(preset::Light::Type type) {
-  switch (type) {
-  case preset::Light::Type::spot: return LIGHT_SPOT;
-  case preset::Light::Type::directional: return LIGHT_DIRECTIONAL;
-  case preset::Light::Type::area: return LIGHT_AREA;
-  case preset::Light::Type::mesh: return LIGHT_MESH;
-  case preset::Light::Type::point: break;
-  }
-  return LIGHT_POINT;
-}
-
-int device_light_type(const scene::Light& light) {
-  return is_environment(light) ? LIGHT_ENVIRONMENT : device_light_type(light.type);
-}
-
 SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters,
                               const LeaveOut& leave_out) {
   constexpr std::size_t most_objects = (1 << MEDIUM_BITS) - 1; // a path's list of media numbers them from 1
@@ -333,10 +310,10 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
     add_light(*light, tables.spheres, scene, leave_out, tables);
     if (!is_environment(*light)) continue;
     tables.sky = std::make_shared<const SkyTables>(make_sky_tables(*scene.environment));
-    tables.lights.back().edge_u = tables.sky->mean_colour;
+    tables.lights.back().as.environment.mean_colour = tables.sky->mean_colour;
   }
   for (std::size_t l = 0; l < lights.size(); ++l)
-    if (tables.lights[l].type == LIGHT_MESH) tables.lights[l].edge_u = to_float4(white_xyz(tables.wavelengths, l));
+    if (tables.lights[l].type == LIGHT_MESH) tables.lights[l].as.mesh.xyz = to_float4(white_xyz(tables.wavelengths, l));
   tables.lamps = make_lamp_tables(scene, lights, tables.lights);
   tables.light_towards_targets_w =
       std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);

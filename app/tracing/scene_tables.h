@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene as kernels read it (kernels/tracing/world.h): plain tables on the host, made once a job.
 #pragma once
+#include "lights/lights.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "tracing/wavelength_tables.h"
@@ -44,11 +45,10 @@ struct TextureTables {
   TEXTURE_TABLES(TABLE_VECTOR)
 };
 
-/// What lamps have beyond their DeviceLight, as kernels/lights/lamp.h reads it.
+/// What lamps have beyond their DeviceLight, as kernels/lights reads it.
 struct LampTables {
   LAMP_TABLES(TABLE_VECTOR)
-  /// [light] a mesh's surfaces, in the order of its table; else nothing.
-  std::vector<std::vector<shared::DevicePrimitive>> surfaces;
+  std::vector<lights::Surfaces> surfaces; ///< [light] a mesh's, in the order of its table; else nothing
 };
 
 struct SceneTables {
@@ -67,16 +67,10 @@ struct SceneTables {
   double power_unit = 1; ///< the unit of DeviceLight::radiometric in W or W m^-2: every power fits single precision
 };
 
-inline shared::float4 to_float4(const glm::dvec3& v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
+using scene::to_float4;
 
 /// where: FILE#/scene/camera. Throws bad_input there for a camera inside more than MEDIA_DEPTH dielectrics.
 shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& where);
-
-/// LIGHT_* of kernels/tracing/shared_types.h.
-int device_light_type(preset::Light::Type type);
-int device_light_type(const scene::Light& light);
 
 /// clusters: each of the 401 wavelengths is in exactly one. Throws bad_input at FILE#/pointer where the camera or a
 /// light is inside more than MEDIA_DEPTH dielectrics.

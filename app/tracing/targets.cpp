@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/targets.h"
 
+#include "lights/lights.h"
 #include "scene/ray.h"
-#include "tracing/lamp_tables.h"
 #include "tracing/scales.h"
 
 #include <algorithm>
@@ -96,48 +96,11 @@ std::vector<scene::Sphere> spheres_of(const std::vector<Piece>& pieces) {
 scene::Sphere everything(const scene::Scene& scene) {
   std::vector<glm::vec3> points = extreme_points(scene.geometry);
   for (const scene::Light& light : scene.lights)
-    if (light.type == preset::Light::Type::area)
-      for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(1, 1)})
-        points.push_back(light.position + 0.5f * (corner.x * light.edge_u + corner.y * light.edge_v));
-    else if (light.type != preset::Light::Type::directional)
-      points.push_back(light.position);
+    if (light.object < 0) // whose surface is among them
+      for (const glm::dvec3& place : lights::model(light).extent(scene, light)) points.emplace_back(place);
   const auto [low, high] = box_about(points);
   // The sphere is larger than it needs to be, so that no light is on its surface, and never a point.
   return {0.5f * (low + high), std::max(0.51f * glm::length(high - low), 1e-3f)};
-}
-
-bool reaches(const scene::Light& light, const scene::Sphere& sphere) {
-  const glm::dvec3 way = glm::dvec3(sphere.centre) - glm::dvec3(light.position);
-  const double distance = glm::length(way), along = glm::dot(way, glm::dvec3(light.direction));
-  // Kernels compute directions in single precision, so a sphere outside by less than these is kept.
-  constexpr double angle_margin = 1e-3, length_margin = 1e-4;
-  if (light.type == preset::Light::Type::area) return along + sphere.radius + length_margin * distance > 0;
-  if (light.type != preset::Light::Type::spot || distance <= sphere.radius) return true;
-  const double off_axis = std::acos(std::clamp(along / distance, -1.0, 1.0));
-  return off_axis - std::asin(sphere.radius / distance) <=
-         std::acos(std::clamp(light.cos_half_angle, -1.0, 1.0)) + angle_margin;
-}
-
-double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit) {
-  using std::numbers::pi;
-  if (light.photometry) return light.power_w * photometric_share(light, targets);
-  double steradians = 0, square_metres = 0;
-  for (const scene::Sphere& target : targets) {
-    const double distance2 = std::pow(glm::length(glm::dvec3(target.centre) - glm::dvec3(light.position)), 2);
-    const double radius2 = double(target.radius) * target.radius;
-    const double sine2 = radius2 / distance2; // 1 - cos = sin^2 / (1 + cos), which stays above 0 for a far target
-    steradians += sine2 >= 1 ? 4 * pi : 2 * pi * sine2 / (1 + std::sqrt(1 - sine2));
-    square_metres += pi * radius2 * metres_per_unit * metres_per_unit;
-  }
-  switch (light.type) {
-  case preset::Light::Type::directional: return light.irradiance_w_m2 * square_metres;
-  case preset::Light::Type::spot:
-    return light.power_w * std::min(1.0, steradians / (2 * pi * (1 - light.cos_half_angle)));
-  case preset::Light::Type::area:
-  case preset::Light::Type::mesh: return light.power_w * std::min(1.0, steradians / pi);
-  case preset::Light::Type::point: break;
-  }
-  return light.power_w * std::min(1.0, steradians / (4 * pi));
 }
 
 // Each sphere's shadow is a disc. Points spread over it (Vogel's sunflower) count by 1 / (discs over the point).

@@ -17,12 +17,6 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene);
 /// One sphere about the whole scene and every light, so that a light sends its photons wherever it shines.
 scene::Sphere everything(const scene::Scene& scene);
 
-/// False where the sphere is outside a spot's cone or behind an area light. True in doubt.
-bool reaches(const scene::Light& light, const scene::Sphere& sphere);
-
-/// The power in W that the light sends towards the targets. It counts twice where targets overlap.
-double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit);
-
 /// The area of the shadow that the spheres cast together: the mean over directions, in square units, to about 2 %.
 double mean_shadow(const std::vector<scene::Sphere>& spheres);
 

@@ -4,7 +4,7 @@
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/random.h"
 #include "kernels/scatter/scatter.h"
-#include "kernels/lights/emission.h"
+#include "kernels/lights/lights.h"
 #include "kernels/tracing/work_item.h"
 
 // The order of app/check/arithmetic.cpp.
@@ -143,8 +143,8 @@ kernel void emissions(global const DeviceLight* lights, int light, global const 
                       DeviceScene scene, uint2 seed, global float4* out, uint count) {
   const uint i = work_item();
   if (i >= count) return;
-  const DeviceLight from = lights[light];
-  const Emission e = emit(&from, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS),
+  const World world = {.lights = lights, .targets = targets, .scene = scene};
+  const Emission e = emit(&world, light, random4(seed, 0u, i, 0u, STREAM_PHOTONS),
                           random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
   out[2 * i] = (float4)(e.origin, e.watts);
   out[2 * i + 1] = (float4)(e.direction, 0.0f);

@@ -2,7 +2,7 @@
 // Algorithm 3.1 of the thesis: photons of parallel light from one direction meet an object of glass or a mirror, and
 // mark each sphere about its middle that they cross afterwards, outside of it.
 #include "kernels/environment/sphere_map.h"
-#include "kernels/lights/emission.h"
+#include "kernels/lights/targets.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/work_item.h"
@@ -130,8 +130,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global c
                    float scale) {
   const World world = WORLD;
   const Spheres spheres = {film, radii, sphere_count, side};
-  DeviceLight light = world.lights[0];
-  light.direction = direction;
+  __global const DeviceLight* light = world.lights;
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
@@ -139,11 +138,12 @@ __kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global c
     const uint photon = first + item;
     const float4 start = sobol4(seed, (uint3)(number, 0u, 0u), 0u, photon);
     const Emission emission =
-        emit_directional(&light, world.targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
+        emit_parallel(direction.xyz, light->radiometric, world.targets + light->first_target, light->target_count,
+                      &scene, start.zxyw); // x and y are the best pair
     const float power = emission.watts * scale;
     const Band band = choose_band(&world, 0, 0, start.w);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 light.inside,    no_losses(),        emission.behind};
+                 light->inside,   no_losses(),        emission.behind};
     Visitor visitor = {&spheres, light_rgb, band, power, seed, number, photon, false, (float4)(0.0f)};
     Hit hit;
     Interaction at;

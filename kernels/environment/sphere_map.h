@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg
 // (2008, "Fast equal-area mapping of the (hemi)sphere using SIMD"). app/environment/bake/bake.h has the same in double.
-#include "kernels/lights/light.h"
+#include "kernels/tracing/frame.h"
 
 // The texel of a direction, row after row, in a map of side x side texels. direction: any length but 0.
 static inline int sphere_texel(float3 direction, int side) {

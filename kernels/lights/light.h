@@ -1,74 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties of a light that both emission and direct light need.
+// What the files of lights share: which light it is, a place of one, a photon that begins there.
+#include "kernels/lights/light_types.h"
 #include "kernels/tracing/frame.h"
-#include "kernels/tracing/shared_types.h"
 
 // Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing.
 #ifndef NEPHROID_LIGHT_TYPES
 #define NEPHROID_LIGHT_TYPES ((1 << LIGHT_TYPE_COUNT) - 1)
 #endif
+#define HAS_LIGHTS(type) ((NEPHROID_LIGHT_TYPES >> (type) & 1) != 0)
 
-// Whether any directional light is a disc (DeviceLight::one_minus_cos), as the sun is.
-#ifndef NEPHROID_DISCS
-#define NEPHROID_DISCS 1
-#endif
-
-static inline bool is_light(const DeviceLight* light, int type) {
-  return (NEPHROID_LIGHT_TYPES >> type & 1) != 0 && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
+static inline bool is_light(__global const DeviceLight* light, int type) {
+  return HAS_LIGHTS(type) && (NEPHROID_LIGHT_TYPES == 1 << type || light->type == type);
 }
 
 // The light that a path carries from a lamp or from a texel of the environment.
 typedef struct {
   int light;  // index into the table
-  float3 rgb; // environment: how much of each primary's spectrum a photon's power carries; else unused
+  float3 rgb; // environment: how much of each primary's spectrum a photon's power carries; lamps: 1
 } Source;
 
-// Whether a unit direction away from a spot lies in its cone. |d - axis|^2 / 2 = 1 - cos keeps narrow cones exact.
-static inline bool in_spot(const DeviceLight* light, float3 direction) {
-  const float3 aside = direction - light->direction.xyz;
-  return 0.5f * dot(aside, aside) <= light->one_minus_cos;
+static inline Source source_lamp(int light) {
+  const Source lamp = {light, (float3)(1.0f)};
+  return lamp;
 }
 
-// Whether a light shines on places so small that paths from the eye, which scatter anywhere, rarely end there.
-static inline bool is_narrow(const DeviceLight* light) {
-  return is_light(light, LIGHT_SPOT) && light->one_minus_cos < NARROW_SPOT;
+// A light at one of its places, as a photon or a shadow ray sees it.
+typedef struct {
+  bool is_parallel;  // directional light, whose place is a direction
+  float3 position;
+  float3 direction;  // unit: the way of parallel light, the axis of a spot, the normal of a surface
+  float radiometric; // the light's, if all of it came from there
+  float3 rgb;        // of its Source
+} LightPlace;
+
+static inline LightPlace place_at(float3 position, float3 direction, float radiometric) {
+  const LightPlace place = {false, position, direction, radiometric, (float3)(1.0f)};
+  return place;
 }
 
-// Whether a lamp's light comes from different places: of a surface, or of a disc far away.
-static inline bool has_lamp_places(const DeviceLight* light) {
-#if NEPHROID_DISCS
-  if (is_light(light, LIGHT_DIRECTIONAL) && light->one_minus_cos > 0.0f) return true;
-#endif
-  return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_MESH);
+static inline LightPlace parallel_light(float3 direction, float radiometric) {
+  const LightPlace place = {true, (float3)(0.0f), direction, radiometric, (float3)(1.0f)};
+  return place;
 }
 
-// Whether photons begin at different places: of such a lamp, or in the environment.
-static inline bool has_places(const DeviceLight* light) {
-  return has_lamp_places(light) || is_light(light, LIGHT_ENVIRONMENT);
+// The power that a surface sends into a small solid angle about a direction, by the cosine law: radiance is power /
+// (area pi), and the place uniform, so it is power cos(theta) / pi per steradian.
+static inline float watts_of_surface(const LightPlace* place, float3 direction, float steradians) {
+  const float cosine = dot(direction, place->direction);
+  return cosine > 0.0f ? place->radiometric * cosine / PI_F * steradians : 0.0f;
 }
 
 // The part of the way to a lamp on which something may stand: a mesh that shines stands there itself, where single
 // precision has it.
-#if NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
-#define UP_TO_LAMP (1.0f - 0x1p-18f)
-#else
-#define UP_TO_LAMP 1.0f
-#endif
-
-// Light of a disc becomes, in *light, directional light from one place, even over the disc's solid angle.
-static inline void choose_in_disc(DeviceLight* light, float2 place) {
-#if NEPHROID_DISCS
-  if (!is_light(light, LIGHT_DIRECTIONAL) || !(light->one_minus_cos > 0.0f)) return;
-  float3 x, y;
-  make_frame(light->direction.xyz, &x, &y);
-  const float below = place.x * light->one_minus_cos, sine = sqrt(below * (2.0f - below));
-  float cosine_phi;
-  const float sine_phi = sincos(2.0f * PI_F * place.y, &cosine_phi);
-  light->direction.xyz =
-      normalize(sine * (cosine_phi * x + sine_phi * y) + (1.0f - below) * light->direction.xyz);
-#endif
-}
-
-static inline float3 area_point(const DeviceLight* light, float2 place) {
-  return light->position.xyz + (place.x - 0.5f) * light->edge_u.xyz + (place.y - 0.5f) * light->edge_v.xyz;
-}
+#define UP_TO_LAMP (HAS_LIGHTS(LIGHT_MESH) ? 1.0f - 0x1p-18f : 1.0f)

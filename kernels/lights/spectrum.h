@@ -1,39 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place of a lamp or of the environment that a photon comes from, and what a path carries of a light's spectrum.
-#include "kernels/lights/lamp.h"
+// What a path carries of a light's spectrum.
+#include "kernels/lights/environment.h"
 #include "kernels/tracing/world.h"
-
-// A light for one photon. The environment and a disc become, in *light, directional light from one place, drawn by
-// `place`; lamps of other shapes an area light of one place.
-static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light) {
-  Source source = {index, (float3)(1.0f)};
-  choose_in_lamp(world, light, place);
-  if (is_light(light, LIGHT_ENVIRONMENT)) {
-#if NEPHROID_EVEN_SKY
-    const SkyPlace from = sample_sky(&world->sky, cdf_of_peaks(&world->sky), place);
-    source.rgb = from.rgb * (from.density * (1.0f - even_part(&from)) / from.peak_density);
-#else
-    const SkyPlace from = sample_sky(&world->sky, world->sky.texel_cdf, place);
-    source.rgb = from.rgb;
-#endif
-    light->direction.xyz = -from.direction;
-  }
-  return source;
-}
-
-// A source with the light's mean colour.
-static inline Source mean_source(const World* world, int index) {
-  const Source source = {index, world->lights[index].edge_u.xyz};
-  return source;
-}
-
-static inline bool is_of_environment(const World* world, int light) {
-#if NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1
-  return world->lights[light].type == LIGHT_ENVIRONMENT;
-#else
-  return false;
-#endif
-}
 
 // carried_light of one row of the tables of lights.
 static inline float4 carried_row(const World* world, const Losses* losses, int light, const Band* band,
@@ -47,10 +15,8 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
     return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
   }
 #endif
-#if NEPHROID_ATTENUATORS > 0 || NEPHROID_LIGHT_TYPES >> LIGHT_MESH & 1
-  if (losses->any || is_white(reflector))
+  if ((NEPHROID_ATTENUATORS > 0 || HAS_LIGHTS(LIGHT_MESH)) && (losses->any || is_white(reflector)))
     return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
-#endif
   const int row = light * world->scene.cluster_count + band->cluster;
   return reflected_colour_of(world->tables.reflected_xyz, row * world->scene.reflector_count, reflector);
 }

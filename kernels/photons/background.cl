@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end
 // at the environment. A path through glass has one wavelength, unless all go the same way: then it has all of them.
-#include "kernels/lights/light.h"
-// Where the environment is no light, its peaks are not known.
-#define NEPHROID_PLACE_DIFFERENTIALS (NEPHROID_LIGHT_TYPES >> LIGHT_ENVIRONMENT & 1)
+// 1: the environment is a light. Where it is none, its peaks are not known.
+#ifndef NEPHROID_SKY_IS_LIGHT
+#define NEPHROID_SKY_IS_LIGHT 1
+#endif
+#define NEPHROID_PLACE_DIFFERENTIALS NEPHROID_SKY_IS_LIGHT
 #include "kernels/tracing/piece.h"
 #include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"

@@ -7,12 +7,10 @@
 
 // The XYZ radiance of a lamp's own surface.
 static inline float3 emitted(const World* world, int light_index, const Path* path, const Band* band) {
-  const DeviceLight light = world->lights[light_index];
-  const float metres = world->scene.metres_per_unit;
-  const Source lamp = {light_index, (float3)(1.0f)};
-  const float3 xyz = band->cluster < 0 ? light.edge_u.xyz
-                                       : carried_light(world, &path->losses, lamp, band, white_reflector()).xyz;
-  return xyz * (light.radiometric / (PI_F * light.solid_angle * metres * metres));
+  const float3 xyz = band->cluster < 0
+                         ? world->lights[light_index].as.mesh.xyz.xyz
+                         : carried_light(world, &path->losses, source_lamp(light_index), band, white_reflector()).xyz;
+  return xyz * mesh_radiance(world, world->lights + light_index);
 }
 
 // The XYZ radiance that a diffuse surface sends back along the path. shines: with its own where it is a lamp.

@@ -23,7 +23,7 @@ static inline float3 direction_to_targets(__global const DeviceTarget* targets, 
 
 // The irradiance times Source::rgb of even light that reaches a diffuse surface through glass and mirrors, on the side
 // that `path` arrives at. Continues the path from there.
-IN_PLACE float3 even_irradiance(const World* world, const DeviceLight* light,
+IN_PLACE float3 even_irradiance(const World* world, __global const DeviceLight* light,
                            Path* path, const Surface* surface, uint triangle, const Band* band, uint2 seed, uint sample,
                            uint pixel) {
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
@@ -63,7 +63,6 @@ __kernel void even_sky(WORLD_ARGUMENTS, int light_index,
   const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_EVEN_SKY, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
-  const DeviceLight light = world.lights[light_index];
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < BOUNCES; ++i) {
@@ -79,7 +78,7 @@ __kernel void even_sky(WORLD_ARGUMENTS, int light_index,
     const float radiance_scale = reach_base(&world, &eye, &way, &end, &at);
     if (radiance_scale == 0.0f) continue;
     const float3 irradiance =
-        even_irradiance(&world, &light, &way, &at.surface, at.triangle, &band, seed, sample, pixel);
+        even_irradiance(&world, world.lights + light_index, &way, &at.surface, at.triangle, &band, seed, sample, pixel);
     const Source sky = {light_index, irradiance};
     xyz += carried_light(&world, &way.losses, sky, &band, reflector_at(&world, &at.surface, at.triangle)).xyz *
            (radiance_scale / (PI_F * (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)BOUNCES));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons leave a light mostly where earlier ones have mattered. The three numbers that give a photon's direction
-// (emission.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly. A photon counts for
+// (targets.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly. A photon counts for
 // less as it comes more often (importance sampling in the space of random numbers, as in Lepage 1978, "A new algorithm
 // for adaptive multidimensional integration"). app/photons/effort/emitters.h says how the histogram is learned.
 #include "kernels/tracing/random.h"

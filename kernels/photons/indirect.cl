@@ -59,8 +59,7 @@ IN_PLACE float3 unbent_light(const World* world, const Visitor* eye, const Path*
       if (any(sky.rgb > 0.0f)) xyz += brought(world, eye, path, sky, reflector);
       continue;
     }
-    const DeviceLight light = world->lights[l];
-    if (eye->narrow || !is_narrow(&light)) {
+    if (eye->narrow || !is_narrow(world->lights + l)) {
       const float irradiance =
           irradiance_of(world, l, path, &at->surface, at->triangle, eye->seed, eye->sample, eye->paths, numbers);
       const Source lamp = {l, (float3)(1.0f)};

@@ -199,22 +199,20 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     receiver.slot->group = NO_PHOTON;
 #endif
     const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
-    DeviceLight light = world.lights[emitter.light];
+    __global const DeviceLight* light = world.lights + emitter.light;
     const float4 random = random4(seed, iteration, number, 0u, STREAM_INDIRECT_PHOTONS);
     const float2 place =
-        has_places(&light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy : (float2)(0.0f);
-    const Source source = source_of(&world, emitter.light, place, &light);
-    const bool narrow = is_narrow(&light);
-    Emission emission =
-        narrow ? emit_in_cone(&light, random) : emit(&light, world.targets, &scene, random, place);
-    emission.watts *= photometric(&world, &light, emission.direction);
+        has_places(light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy : (float2)(0.0f);
+    const bool narrow = is_narrow(light);
+    const Emission emission =
+        narrow ? emit_in_cone(light, emitter.light, random) : emit(&world, emitter.light, random, place);
     if (emission.watts == 0.0f) continue;
     Visitor photon;
     photon.receiver = &receiver;
     photon.shading = 1.0f;
     photon.watts = emission.watts / (float)emitter.photon_count;
-    photon.light = source.light;
-    photon.rgb = source.rgb;
+    photon.light = emission.source.light;
+    photon.rgb = emission.source.rgb;
     photon.seed = seed;
     photon.iteration = iteration;
     photon.number = number;
@@ -224,7 +222,7 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     photon.refused = 0;
     choose_wavelength(&world, spectrum_cdf + emitter.light * members, random.w, seed, iteration, &photon);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 light.inside,    no_losses(),        emission.behind};
+                 light->inside,    no_losses(),        emission.behind};
     Hit hit;
     Interaction at;
     int last;
@@ -239,7 +237,7 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     add_outcome(outcomes, OUTCOME_REFUSED, photon.refused);
     const Band band = visitor_band(&photon);
     count_photon(outcomes, outcome, last + 1,
-                 photon.watts * band_share(&world, source, &band, 0.0f) * energy_scale,
+                 photon.watts * band_share(&world, emission.source, &band, 0.0f) * energy_scale,
                  wavelength_left(&world.tables, &path.losses, photon.wavelength));
   }
   add_outcomes(energy, outcomes);

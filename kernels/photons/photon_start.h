@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a photon begins: its emitter and its random numbers there; and how its end is counted.
-#include "kernels/lights/emission.h"
+#include "kernels/lights/lights.h"
 #include "kernels/lights/spectrum.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
@@ -70,8 +70,8 @@ COMPILED_ONCE PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   start.wavelength = 0.0f;
   start.place = (float2)(0.0f);
   const DeviceEmitter emitter = emitters[start.emitter];
-  const DeviceLight light = lights[emitter.light];
-  const bool placed = has_places(&light);
+  __global const DeviceLight* light = lights + emitter.light;
+  const bool placed = has_places(light);
 #if NEPHROID_LOW_DISCREPANCY
   const ulong start_of_allocation = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
   const ulong number = start_of_allocation +
@@ -79,7 +79,7 @@ COMPILED_ONCE PhotonStart photon_start(__global const DeviceEmitter* emitters, i
                        (photon - emitter.light_first_photon);
   const uint index = (uint)number; // a sequence has 2^32 points; then another begins
   const uint3 sequence =
-      (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
+      (uint3)(emitter.sequence, (uint)light->number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
   const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
   const uint below = (uint)(start.emission.x * 0x1p24f);         // 24 more bits of the fourth number
   start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair

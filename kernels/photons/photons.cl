@@ -53,16 +53,14 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
 #endif
     PhotonStart start = photon_start(emitters, emitter_count, world.lights, seed, batch, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
-    DeviceLight light = world.lights[emitter.light];
 #if NEPHROID_MOMENTS
     const Guided guided = guide_numbers(guide + emitter.light * GUIDE_FLOATS, &start.emission);
     long moment = 0;
 #else
     const Guided guided = {1.0f, 0u};
 #endif
-    const Source source = source_of(&world, emitter.light, start.place, &light);
-    Emission emission = emit(&light, world.targets, &scene, start.emission, start.place);
-    emission.watts *= photometric(&world, &light, emission.direction);
+    const Emission emission = emit(&world, emitter.light, start.emission, start.place);
+    const Source source = emission.source;
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
     const int part = part_of_cluster(start.wavelength);
@@ -75,7 +73,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     SET_ASIDE float watts =
         emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 light.inside,    no_losses(),        emission.behind};
+                 world.lights[emitter.light].inside,    no_losses(),        emission.behind};
     const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, batch, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {

@@ -22,14 +22,11 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     const PhotonStart start =
         photon_start(emitters, scene.emitter_count, world.lights, seed, iteration, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
-    DeviceLight light = world.lights[emitter.light];
-    choose_in_lamp(&world, &light, start.place);
-    Emission emission = emit(&light, world.targets, &scene, start.emission, start.place);
-    emission.watts *= photometric(&world, &light, emission.direction);
+    const Emission emission = emit(&world, emitter.light, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 light.inside,    no_losses(),        emission.behind};
+                 world.lights[emitter.light].inside,    no_losses(),        emission.behind};
     const PhotonEnd end = trace_way(&world, &band, &path, seed, iteration, photon);
     const float left = cluster_left(&world.tables, &path.losses, emitter.cluster);
     if (end.outcome == OUTCOME_DEPOSITED) {

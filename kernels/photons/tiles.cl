@@ -314,13 +314,11 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices,
     const float2 disc = (convert_float2(index) + (float2)(lattice.shift_x, lattice.shift_y)) * lattice.step - 1.0f;
     if (dot(disc, disc) > 1.0f) continue;
     const uint2 point = index + (uint2)(lattice.phase & 0xffffu, lattice.phase >> 16);
-    DeviceLight light = world.lights[lattice.light];
     const float2 place = (float2)(lattice.place_x, lattice.place_y);
-    const Source source = source_of(&world, lattice.light, place, &light);
     Visitor tile;
-    Emission emission =
-        emit_on_lattice(&light, world.targets, &scene, lattice.target, disc, place, tile.branch.path.by_place);
-    emission.watts *= photometric(&world, &light, emission.direction);
+    const Emission emission =
+        emit_on_lattice(&world, lattice.light, lattice.target, disc, place, tile.branch.path.by_place);
+    const Source source = emission.source;
     if (emission.watts == 0.0f) continue;
     const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
     const Band whole = whole_cluster(lattice.cluster);
@@ -339,7 +337,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices,
     tile.seed = seed;
     tile.iteration = iteration;
     tile.photon = photon;
-    start_branch(&tile.branch, &emission, light.inside);
+    start_branch(&tile.branch, &emission, world.lights[lattice.light].inside);
     for (;;) {
       Branch* const branch = &tile.branch;
       Hit hit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the eye begin, and each lamp's unbent light on a diffuse surface.
 #include "kernels/tracing/camera.h"
-#include "kernels/lights/arrival.h"
+#include "kernels/lights/direct.h"
 #include "kernels/tracing/film.h"
 #include "kernels/scatter/scatter.h"
 #include "kernels/tracing/low_discrepancy.h"

@@ -7,7 +7,7 @@
 // sample's own, and one drawn by the map's peaks, which counts if it is among them. So a sun much smaller than the
 // piece is there with its share, and what is even is seen as without differentials.
 #include "kernels/lights/background.h"
-#include "kernels/lights/emission.h"
+#include "kernels/lights/lights.h"
 #include "kernels/tracing/path.h"
 
 typedef struct {

@@ -55,7 +55,7 @@
   TABLE(ushort, texture_texels, "texels of textures") /* [texel][3]: linear sRGB or numbers, 65535 is 1 */ \
   TABLE(float, texcoords, "texture coordinates") /* [triangle of objects with textures][corner][2] */
 
-// What lamps have beyond their DeviceLight: lights/lamp.h.
+// What lamps have beyond their DeviceLight: kernels/lights.
 #define LAMP_TABLES(TABLE) \
   TABLE(float, lamp_tables, "lamps' tables") /* mesh: chances of its surfaces; picture: of rows, then of each row's \
     texels; photometry: [plane][gamma] intensity over the mean of all directions */

@@ -38,14 +38,6 @@ struct alignas(8) uint2 {
 #define GUIDE_CELLS (GUIDE_BINS_X * GUIDE_BINS_Y * GUIDE_BINS_Z)
 #define GUIDE_FLOATS (GUIDE_BINS_X + GUIDE_BINS_X * GUIDE_BINS_Y + GUIDE_CELLS)
 
-#define LIGHT_POINT 0
-#define LIGHT_SPOT 1
-#define LIGHT_DIRECTIONAL 2
-#define LIGHT_AREA 3
-#define LIGHT_ENVIRONMENT 4 // the last light, if there is one; as directional light but for what sky.h says
-#define LIGHT_MESH 5
-#define LIGHT_TYPE_COUNT 6
-
 // Where a photon ended. The energy counters, in quanta of power (RunTables::energy_scale), are in this order.
 #define OUTCOME_EMITTED 0   // sum of the next five
 #define OUTCOME_DEPOSITED 1 // on a diffuse surface after glass or a mirror
@@ -107,31 +99,6 @@ typedef struct {
 typedef struct {
   ulong latest, earlier; // the last four objects entered, the last one in the lowest bits; the four before
 } Media;
-
-#define NARROW_SPOT 0.05f // half an angle of 18 degrees
-
-typedef struct {
-  float4 position;  // area: its centre; directional, environment, mesh: unused
-  float4 direction; // unit, the way the light goes; point: of its photometry; environment, mesh: unused
-  float4 edge_u;    // area: the full edges; environment: the mean colour of its photons; mesh: XYZ of its spectrum;
-  float4 edge_v;    // photometry: unit, the way to C = 0, 90 degrees; w: of a picture (lights/lamp.h) as_int, its
-                    // width, height; of a mesh as_int, how many surfaces it has, the first of them in the table of
-                    // triangles
-  int type;            // LIGHT_*
-  float one_minus_cos; // spot: 1 - cos of its half angle; less than NARROW_SPOT: see is_narrow (light.h); directional:
-                       // of half its disc's angle, 0 for a point
-  float solid_angle;   // spot: its cone's, in steradians; mesh: its area, in square units
-  float radiometric; // directional: irradiance in W m^-2; environment: of all directions together; else power in W
-  Media inside;        // directional, environment: none
-  int first_target;    // the first of its targets in the table: those that this light can reach
-  int target_count;
-  int number; // among the preset's lights, so that its random numbers do not depend on lights left out
-  int table;  // of a mesh, a picture or photometry: its first item in lamp_tables; -1: none
-} DeviceLight;
-
-// A point's photometry: intensities at even steps of gamma, from 0 to 180 degrees, and of C, from 0 to 360.
-#define PHOTOMETRY_GAMMAS 361
-#define PHOTOMETRY_PLANES 361
 
 // A bounding sphere of a caustic object; photons are sent towards these only. The table has lists of them.
 typedef struct {
@@ -212,7 +179,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 48 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
-static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
+static_assert(sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 52 + sizeof(DeviceTables) && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64 && sizeof(DeviceTexture) == 44);
 } // namespace nephroid::shared

@@ -7,12 +7,6 @@
 #include "kernels/lights/sky.h"
 #include "kernels/tracing/surface.h"
 
-// 1: paths from the eye find the even light of the environment where glass sends it (sky.h), and photons only its
-// peaks.
-#ifndef NEPHROID_EVEN_SKY
-#define NEPHROID_EVEN_SKY 0
-#endif
-
 typedef struct {
   Geometry geometry;
   OBJECT_TABLES(TABLE_MEMBER)

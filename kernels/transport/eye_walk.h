@@ -66,13 +66,11 @@ static inline uint visitor_lobes(const Visitor* eye, const Interaction* at, int 
 static inline float3 highlight(const World* world, int light_index, bool beyond, const Path* path,
                                const Interaction* at, const Band* band, uint2 seed, uint sample, uint paths,
                                uint pixel) {
-  DeviceLight light = world->lights[light_index];
   const Surface* surface = &at->surface;
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f, light_side = beyond ? -side : side;
   const float3 n = normal_before(path->direction, surface);
-  const float4 place = has_lamp_places(&light) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
-  choose_in_lamp(world, &light, place.xy);
-  const Arrival arrival = arrive_from_lamp(world, &light, surface->position, beyond ? -n : n, place.xy);
+  const LightSample arrival =
+      sample_lamp(world, light_index, surface->position, beyond ? -n : n, seed, sample, paths, pixel);
   if (!(arrival.irradiance > 0.0f) || !(light_side * dot(arrival.direction, surface->geometric) > 0.0f))
     return (float3)(0.0f);
   Path scattered = *path;

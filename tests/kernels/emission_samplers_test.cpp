@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/lights/emission.h, first in extreme places: a far and small target, and a light inside of one.
-#include "kernels/tracing/shared_types.h"
+// kernels/lights, first in extreme places: a far and small target, and a light inside of one.
+#include "kernels/lights/light_types.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
 
@@ -11,10 +11,8 @@ namespace nephroid::emission_samplers_test {
 using namespace shared;
 
 constexpr const char* source = R"(
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/random.h"
-#include "kernels/lights/light.h"
-#include "kernels/lights/emission.h"
+#include "kernels/lights/lights.h"
 #include "kernels/tracing/work_item.h"
 kernel void sample(global const DeviceTarget* targets, int target_count, float4 from, uint2 seed, global float4* out, uint count)
 {
@@ -27,11 +25,12 @@ kernel void sample(global const DeviceTarget* targets, int target_count, float4 
 typedef struct {
   float4 origin_watts, direction;
 } Sent;
-kernel void emissions(DeviceLight light, global const DeviceTarget* targets, DeviceScene scene, uint2 seed, global Sent* out, uint count)
+kernel void emissions(global const DeviceLight* light, global const DeviceTarget* targets, DeviceScene scene, uint2 seed, global Sent* out, uint count)
 {
   const uint i = work_item();
   if (i >= count) return;
-  const Emission sent = emit(&light, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
+  const World world = {.lights = light, .targets = targets, .scene = scene};
+  const Emission sent = emit(&world, 0, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
   out[i].origin_watts = (float4)(sent.origin, sent.watts);
   out[i].direction = (float4)(sent.direction, 0.0f);
 }
@@ -116,11 +115,12 @@ std::vector<Sent> emit(const DeviceLight& light) {
   with_targets.target_count = static_cast<int>(targets.size());
   shared::DeviceScene scene{.metres_per_unit = 0.01f, .outside_distance = 20};
   const compute::Buffer<DeviceTarget> on_device(kernels().context(), "targets", std::span<const DeviceTarget>(targets));
+  const compute::Buffer<DeviceLight> lights(kernels().context(), "light", std::vector{with_targets});
   const compute::Buffer<Sent> out(kernels().context(), "out", count);
   kernels()
       .kernel("emissions")
       .run(count, 64,
-           {{"light", with_targets},
+           {{"light", lights},
             {"targets", on_device},
             {"scene", scene},
             {"seed", shared::uint2{8, 15}},
@@ -216,8 +216,9 @@ void expect_emission(const std::vector<Sent>& sent, const std::function<std::siz
 std::size_t cell_of_sent_direction(const Sent& photon) { return cell_of_direction(vector(photon.direction)); }
 
 TEST(EmissionSamplers, PointLight) {
-  DeviceLight light{.position = device({0.1, -0.2, 0.3}), .type = LIGHT_POINT, .radiometric = 7};
-  const glm::dvec3 from = vector(light.position);
+  const glm::dvec3 from(0.1, -0.2, 0.3);
+  DeviceLight light{.type = LIGHT_POINT, .radiometric = 7, .table = -1};
+  light.as.point = {.position = device(from)};
   const std::vector<double> density = integrals(
       4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double, double) {
@@ -227,16 +228,17 @@ TEST(EmissionSamplers, PointLight) {
 }
 
 DeviceLight spot(double half_angle_deg) {
-  DeviceLight light{.direction = device(glm::normalize(glm::dvec3(0.1, 0.1, -1))),
-                    .type = LIGHT_SPOT,
-                    .one_minus_cos = static_cast<float>(1 - std::cos(half_angle_deg * M_PI / 180)),
-                    .radiometric = 7};
-  light.solid_angle = 2 * static_cast<float>(M_PI) * light.one_minus_cos;
+  const auto one_minus_cos = static_cast<float>(1 - std::cos(half_angle_deg * M_PI / 180));
+  DeviceLight light{.type = LIGHT_SPOT, .radiometric = 7};
+  light.as.spot = {{},
+                   device(glm::normalize(glm::dvec3(0.1, 0.1, -1))),
+                   one_minus_cos,
+                   2 * static_cast<float>(M_PI) * one_minus_cos};
   return light;
 }
 
 bool in_cone(const DeviceLight& light, const glm::dvec3& direction) {
-  return 1 - glm::dot(direction, vector(light.direction)) <= static_cast<double>(light.one_minus_cos);
+  return 1 - glm::dot(direction, vector(light.as.spot.direction)) <= static_cast<double>(light.as.spot.one_minus_cos);
 }
 
 // The cone is tighter than the targets: photons fill it evenly, whether they meet a target or not.
@@ -245,7 +247,7 @@ TEST(EmissionSamplers, NarrowSpot) {
   const std::vector<double> inside = integrals(
       4 * M_PI, [&](double a, double b, double, double) { return in_cone(light, direction_of(a, b)) ? 1.0 : 0.0; });
   std::vector<double> watts = inside;
-  for (double& w : watts) w *= 7 / static_cast<double>(light.solid_angle);
+  for (double& w : watts) w *= 7 / static_cast<double>(light.as.spot.solid_angle);
   expect_emission(emit(light), cell_of_sent_direction, inside, watts);
 }
 
@@ -253,32 +255,33 @@ TEST(EmissionSamplers, NarrowSpot) {
 TEST(EmissionSamplers, WideSpot) {
   const DeviceLight light = spot(62);
   const glm::dvec3 from(0);
-  ASSERT_GT(static_cast<double>(light.solid_angle), sum_of_solid_angles(from));
+  ASSERT_GT(static_cast<double>(light.as.spot.solid_angle), sum_of_solid_angles(from));
   const std::vector<double> density = integrals(
       4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double, double) {
     const glm::dvec3 d = direction_of(a, b);
-    return in_cone(light, d) && targets_met(from, d) > 0 ? 7 / static_cast<double>(light.solid_angle) : 0.0;
+    return in_cone(light, d) && targets_met(from, d) > 0 ? 7 / static_cast<double>(light.as.spot.solid_angle) : 0.0;
   });
   expect_emission(emit(light), cell_of_sent_direction, density, watts);
 }
 
 /// A rectangle of 1.2 by 0.6 that faces between the targets, with one of them partly behind it.
 DeviceLight panel() {
-  return {.position = device({-0.2, 0.1, 0.2}),
-          .direction = device(glm::normalize(glm::dvec3(1, 0, -1))),
-          .edge_u = device(1.2 * glm::normalize(glm::dvec3(1, 0, 1))),
-          .edge_v = device({0, 0.6, 0}),
-          .type = LIGHT_AREA,
-          .radiometric = 7};
+  DeviceLight light{.type = LIGHT_AREA, .radiometric = 7, .table = -1};
+  light.as.area = {.centre = device({-0.2, 0.1, 0.2}),
+                   .normal = device(glm::normalize(glm::dvec3(1, 0, -1))),
+                   .edge_u = device(1.2 * glm::normalize(glm::dvec3(1, 0, 1))),
+                   .edge_v = device({0, 0.6, 0})};
+  return light;
 }
 
 /// Power through a cell of directions is P cos(theta) / pi a steradian from each point of the light, where that meets a
 /// target.
 TEST(EmissionSamplers, AreaLightDirections) {
   const DeviceLight light = panel();
+  const DeviceArea& area = light.as.area;
   const auto point = [&](double s, double t) {
-    return vector(light.position) + (s - 0.5) * vector(light.edge_u) + (t - 0.5) * vector(light.edge_v);
+    return vector(area.centre) + (s - 0.5) * vector(area.edge_u) + (t - 0.5) * vector(area.edge_v);
   };
   const std::vector<double> density = integrals(4 * M_PI, [&](double a, double b, double s, double t) {
     const glm::dvec3 from = point(s, t);
@@ -286,7 +289,7 @@ TEST(EmissionSamplers, AreaLightDirections) {
   });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double s, double t) {
     const glm::dvec3 d = direction_of(a, b);
-    return targets_met(point(s, t), d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(light.direction)), 0.0) : 0.0;
+    return targets_met(point(s, t), d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(area.normal)), 0.0) : 0.0;
   });
   expect_emission(emit(light), cell_of_sent_direction, density, watts);
 }
@@ -294,17 +297,17 @@ TEST(EmissionSamplers, AreaLightDirections) {
 /// Places are even on the rectangle; the power from a place is that of the directions from there that meet a target.
 TEST(EmissionSamplers, AreaLightPlaces) {
   const DeviceLight light = panel();
+  const DeviceArea& area = light.as.area;
   const auto cell = [&](const Sent& photon) {
-    const glm::dvec3 from = vector(photon.origin_watts) - vector(light.position), u = vector(light.edge_u),
-                     v = vector(light.edge_v);
+    const glm::dvec3 from = vector(photon.origin_watts) - vector(area.centre), u = vector(area.edge_u),
+                     v = vector(area.edge_v);
     return cell_of(glm::dot(from, u) / glm::dot(u, u) + 0.5, glm::dot(from, v) / glm::dot(v, v) + 0.5);
   };
   const std::vector<double> density = integrals(1, [&](double, double, double, double) { return 1.0; });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double s, double t) {
-    const glm::dvec3 from =
-                         vector(light.position) + (a - 0.5) * vector(light.edge_u) + (b - 0.5) * vector(light.edge_v),
+    const glm::dvec3 from = vector(area.centre) + (a - 0.5) * vector(area.edge_u) + (b - 0.5) * vector(area.edge_v),
                      d = direction_of(s, t);
-    return targets_met(from, d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(light.direction)), 0.0) : 0.0;
+    return targets_met(from, d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(area.normal)), 0.0) : 0.0;
   });
   const std::vector<Sent> sent = emit(light);
   std::vector<double> counts(density.size(), 0.0);
@@ -324,7 +327,7 @@ TEST(EmissionSamplers, AreaLightPlaces) {
 TEST(EmissionSamplers, DirectionalLight) {
   DeviceLight light{.type = LIGHT_DIRECTIONAL, .radiometric = 7};
   const glm::dvec3 along = glm::normalize(glm::dvec3(0.3, -0.2, -1));
-  light.direction = device(along);
+  light.as.directional = {device(along), 0};
   const glm::dvec3 x = glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0))), y = glm::cross(along, x);
   constexpr double edge = 8; // of the square about the origin that holds all shadows
   const auto place = [&](double a, double b) { return edge * ((a - 0.5) * x + (b - 0.5) * y); };

@@ -21,10 +21,10 @@ kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global floa
   const uint i = work_item();
   if (i < count) out[i] = random4(seed, pass, i, block, stream);
 }
-kernel void area_places(DeviceLight light, uint2 seed, global float4* out, uint count)
+kernel void area_places(global const DeviceLight* light, uint2 seed, global float4* out, uint count)
 {
   const uint i = work_item();
-  if (i < count) out[i] = (float4)(area_point(&light, random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy), 0.0f);
+  if (i < count) out[i] = (float4)(area_point(light, random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy), 0.0f);
 }
 // Item i is frame i / pixels of pixel i % pixels.
 kernel void camera_directions(DeviceCamera camera, uint2 seed, global float4* out, uint count)
@@ -183,12 +183,13 @@ TEST(Uniforms, WrongOnesAreFound) {
 }
 
 TEST(AreaPoint, FillsTheRectangleEvenly) {
-  shared::DeviceLight light{.position = {3, -2, 1, 0}};
-  light.edge_u = {0.6f, 0.8f, 0, 0}; // of length 1 and 2, at right angles
-  light.edge_v = {-0.96f, 0.72f, 1.6f, 0};
-  light.type = LIGHT_AREA;
+  shared::DeviceLight light{.type = LIGHT_AREA, .table = -1};
+  light.as.area = {.centre = {3, -2, 1, 0}, // with edges of length 1 and 2, at right angles
+                   .edge_u = {0.6f, 0.8f, 0, 0},
+                   .edge_v = {-0.96f, 0.72f, 1.6f, 0}};
+  const compute::Buffer<shared::DeviceLight> on_device(kernels().context(), "light", std::vector{light});
   Column u, v;
-  for (const float4& p : draw<float4>("area_places", {{"light", light}, {"seed", seed}})) {
+  for (const float4& p : draw<float4>("area_places", {{"light", on_device}, {"seed", seed}})) {
     const double x = p.x - 3.0, y = p.y + 2.0, z = p.z - 1.0;
     u.push_back(static_cast<float>(0.6 * x + 0.8 * y + 0.5));
     v.push_back(static_cast<float>((-0.96 * x + 0.72 * y + 1.6 * z) / 4 + 0.5));

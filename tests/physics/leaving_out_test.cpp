@@ -2,10 +2,10 @@
 // Leaving out what a scene does not need changes no picture: a run that leaves out all it can against one with the
 // general kernels and with this omission turned back on; and it is not made in scenes that come close to not needing
 // it.
+#include "lights/lights.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
-#include "tracing/targets.h"
 
 namespace nephroid::leaving_out_test {
 
@@ -165,19 +165,19 @@ TEST(NotLeftOut, WhatAnAreaLightsPlaneCuts) {
   scene::Light light;
   light.type = preset::Light::Type::area;
   light.direction = {0, -1, 0};
-  EXPECT_TRUE(tracing::reaches(light, {{5, -1, 0}, 0.5f}));
-  EXPECT_TRUE(tracing::reaches(light, {{5, 0.49f, 0}, 0.5f}));
-  EXPECT_FALSE(tracing::reaches(light, {{5, 0.51f, 0}, 0.5f}));
+  EXPECT_TRUE(lights::model(light).reaches(light, {{5, -1, 0}, 0.5f}));
+  EXPECT_TRUE(lights::model(light).reaches(light, {{5, 0.49f, 0}, 0.5f}));
+  EXPECT_FALSE(lights::model(light).reaches(light, {{5, 0.51f, 0}, 0.5f}));
   light.type = preset::Light::Type::spot;
   light.cos_half_angle = -1; // the whole sphere
-  EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(lights::model(light).reaches(light, {{0, 9, 0}, 0.5f}));
   light.cos_half_angle = 0.999999;
-  EXPECT_FALSE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
-  EXPECT_TRUE(tracing::reaches(light, {{0, 0.3f, 0}, 0.5f})); // the light is inside
+  EXPECT_FALSE(lights::model(light).reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(lights::model(light).reaches(light, {{0, 0.3f, 0}, 0.5f})); // the light is inside
   light.type = preset::Light::Type::directional;
-  EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(lights::model(light).reaches(light, {{0, 9, 0}, 0.5f}));
   light.type = preset::Light::Type::point;
-  EXPECT_TRUE(tracing::reaches(light, {{0, 9, 0}, 0.5f}));
+  EXPECT_TRUE(lights::model(light).reaches(light, {{0, 9, 0}, 0.5f}));
 }
 
 } // namespace nephroid::leaving_out_test

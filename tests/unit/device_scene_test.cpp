@@ -11,8 +11,8 @@
 
 namespace nephroid::device_scene_test {
 
-using nephroid::tracing::exact_cdf;
-using nephroid::tracing::exact_cdf_from_zero;
+using nephroid::exact_cdf;
+using nephroid::exact_cdf_from_zero;
 using namespace nephroid::photons;
 
 preset::Preset scene_with(const preset::Shape& shape, const preset::Material& material) {

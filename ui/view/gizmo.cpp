@@ -99,8 +99,6 @@ void prepare(const Canvas& canvas) {
 
 const char* verb(Tool tool) { return tool == Tool::move ? "move" : tool == Tool::turn ? "turn" : "scale"; }
 
-using LightType = preset::Light::Type;
-
 constexpr ImU32 lamp = IM_COL32(255, 214, 102, 255), marked = IM_COL32(255, 150, 50, 255);
 constexpr float icon_radius = 6, grab_radius = 10; ///< pixels at scale 1
 
@@ -148,7 +146,7 @@ void draw_light(const Context& context, const Pinhole& pinhole, std::size_t inde
   if (!at) return;
   const ImU32 colour = selected ? marked : lamp;
   const double scene_em = 2 * pinhole.depth(grip.at) * pinhole.tan_x / pinhole.size[0] * em();
-  if (light.type == LightType::area)
+  if (preset::has(light.type, LIGHT_HAS_EDGES))
     draw_box(pinhole, grip.at, {0.5 * light.size[0] * grip.axes[0], 0.5 * light.size[1] * grip.axes[1], glm::dvec3(0)},
              colour);
   if (preset::is_directed(light)) draw_line(pinhole, grip.at, grip.at + 2.5 * scene_em * grip.axes[2], colour);

@@ -13,7 +13,6 @@ namespace nephroid::ui {
 namespace {
 
 using Kind = Selection::Kind;
-using LightType = preset::Light::Type;
 
 preset::Vec3 rounded_vector(const glm::dvec3& v, int decimals) {
   return {rounded(v.x, decimals), rounded(v.y, decimals), rounded(v.z, decimals)};
@@ -37,7 +36,7 @@ glm::dmat3 light_axes(const preset::Light& light) {
 /// A light's place. A directional light has none; it is shown in front of the camera's target, far enough for its arrow
 /// to be visible.
 glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light) {
-  if (light.type != LightType::directional) return to_vector(light.position);
+  if (preset::has(light.type, LIGHT_HAS_POSITION)) return to_vector(light.position);
   const preset::Camera& camera = preset.scene.camera;
   const double reach = 0.3 * preset::height_at_target(camera);
   return to_vector(camera.target) - reach * unit_or(to_vector(light.direction), {0, -1, 0});
@@ -46,10 +45,10 @@ glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light)
 GizmoTarget light_grip(const preset::Preset& preset, const preset::Light& light) {
   GizmoTarget grip;
   grip.at = light_place(preset, light);
-  grip.moves = light.type != LightType::directional;
+  grip.moves = preset::has(light.type, LIGHT_HAS_POSITION);
   grip.turns = preset::is_directed(light);
   if (grip.turns) grip.axes = light_axes(light);
-  if (light.type == LightType::area) grip.scales = {true, true, false};
+  if (preset::has(light.type, LIGHT_HAS_EDGES)) grip.scales = {true, true, false};
   return grip;
 }
 
@@ -101,7 +100,7 @@ std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection
   }
   case Kind::light: {
     const preset::Light& light = preset.scene.lights[selection.index];
-    return light.type == LightType::mesh ? std::nullopt : std::optional(light_grip(preset, light));
+    return preset::has(light.type, LIGHT_HAS_OBJECT) ? std::nullopt : std::optional(light_grip(preset, light));
   }
   case Kind::camera: return GizmoTarget{.at = to_vector(preset.scene.camera.target)};
   case Kind::nothing: break;
@@ -170,7 +169,7 @@ void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget&
   } else if (selection.kind == Kind::light) {
     preset::Light& light = preset.scene.lights[selection.index];
     light.direction = rounded_vector(rotation * to_vector(light.direction), 7);
-    if (light.type == LightType::area || light.photometry) light.up = rounded_vector(rotation * to_vector(light.up), 7);
+    if (preset::is_framed(light)) light.up = rounded_vector(rotation * to_vector(light.up), 7);
   }
 }
 

@@ -65,7 +65,7 @@ Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t 
       light_rgb_(compute::Buffer(context, "white light", white_light())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))),
       bake_(std::move(before)) {
-  // kernels/lights/emission.h spreads photons over the discs of all targets, which may overlap.
+  // kernels/lights/targets.h spreads photons over the discs of all targets, which may overlap.
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2

@@ -23,7 +23,7 @@ std::vector<DistantLight> lamps(const scene::Scene& scene) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const scene::Light& light = scene.lights[i];
     if (scene::is_environment(light)) continue;
-    if (light.type != preset::Light::Type::directional)
+    if (!preset::has(light.type, LIGHT_HAS_IRRADIANCE))
       throw bad_input(Location(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
                       "expected \"directional\": the engine 'environment' knows light from far away only",
                       fmt::format("give it a direction: --set 'scene.lights.{}={{\"type\": \"directional\", "

@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "formats/export/glb.h"
 #include "formats/import/description.h"
+#include "lights/lights.h"
 #include "measure/lab.h"
 #include "preset/read.h"
 
@@ -38,7 +39,7 @@ Json caustic_json(const scene::Scene& scene, const Caustic& caustic) {
 Json area_lights(const scene::Scene& scene) {
   Json lights = Json::array();
   for (const scene::Light& light : scene.lights) {
-    if (light.type != preset::Light::Type::area || scene::is_environment(light)) continue;
+    if (!preset::has(light.type, LIGHT_HAS_EDGES)) continue;
     const GltfColour colour = colour_of_light(light.spectrum);
     const double metres = scene.metres_per_unit;
     lights.push_back(
@@ -88,21 +89,14 @@ std::vector<std::string> left_out(const scene::Scene& scene) {
       notes.push_back(note);
   if (any_material(scene, scatter::has_pictures))
     notes.push_back("textures are left out: their surfaces have the colour of their reflectance");
-  if (std::ranges::any_of(scene.lights, scene::has_disc)) notes.push_back("a sun is a point: its disc is left out");
-  const auto any_light = [&](bool (*is)(const scene::Light&)) { return std::ranges::any_of(scene.lights, is); };
-  if (any_light([](const scene::Light& light) { return light.object >= 0; }))
-    notes.push_back("an object that shines is a point light in its middle, where it may hide it: give its material an "
-                    "emission in the other program");
-  if (any_light([](const scene::Light& light) { return light.photometry || light.picture; }))
-    notes.push_back("glTF has no photometry and no lamps with pictures: those shine evenly");
+  for (const scene::Light& light : scene.lights)
+    if (const std::string note(lights::model(light).left_out(light));
+        !note.empty() && std::ranges::find(notes, note) == notes.end())
+      notes.push_back(note);
   if (scene.camera.lens_radius > 0) notes.push_back("glTF has no lenses: the camera's aperture is left out");
   if (scene.camera.shift != glm::dvec2(0)) notes.push_back("glTF has no shift: the camera's is left out");
   if (std::ranges::any_of(scene.lights, [](const scene::Light& light) { return !light.inside.empty(); }))
     notes.push_back("a light is inside glass: another renderer may keep its light there");
-  if (std::ranges::any_of(scene.lights, [](const scene::Light& light) {
-        return light.type == preset::Light::Type::spot && light.cos_half_angle < 0;
-      }))
-    notes.push_back("a spot of glTF has at most half of all directions: what a wider one sends beyond them is missing");
   return notes;
 }
 

@@ -2,6 +2,7 @@
 #include "formats/export/glb.h"
 
 #include "formats/import/gltf_scene.h"
+#include "lights/lights.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 
@@ -99,8 +100,8 @@ public:
     }
     add_camera();
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-      if (!scene::is_environment(scene.lights[i]) && scene.lights[i].type != preset::Light::Type::area)
-        add_light(scene.lights[i], i);
+      if (const auto light = lights::model(scene.lights[i]).punctual(scene.lights[i]))
+        add_light(scene.lights[i], *light, i);
   }
 
   Glb take() { return std::move(glb_); }
@@ -275,24 +276,15 @@ private:
               {"rotation", turn_to(camera.forward, camera.up)}});
   }
 
-  void add_light(const scene::Light& light, std::size_t number) {
-    using Type = preset::Light::Type;
+  void add_light(const scene::Light& light, const lights::Punctual& punctual, std::size_t number) {
     const GltfColour colour = colour_of_light(light.spectrum);
     const std::string name = fmt::format("light {}", number);
-    Json made{{"name", name}, {"color", colour.rgb}};
-    const double lumens = light.power_w * colour.luminous_per_watt * most_lumens;
-    if (light.type == Type::directional) {
-      made["type"] = "directional";
-      made["intensity"] = light.irradiance_w_m2 * colour.luminous_per_watt * most_lumens;
-    } else if (light.type == Type::spot) {
-      made["type"] = "spot";
-      made["intensity"] = lumens / (2 * pi * (1 - light.cos_half_angle));
-      const double angle = std::min(std::acos(light.cos_half_angle), pi / 2);
-      made["spot"] = {{"innerConeAngle", 0.999 * angle}, {"outerConeAngle", angle}}; // the inner one has to be smaller
-    } else {
-      made["type"] = "point";
-      made["intensity"] = lumens / (4 * pi);
-    }
+    Json made{{"name", name},
+              {"color", colour.rgb},
+              {"type", punctual.type},
+              {"intensity", punctual.intensity * colour.luminous_per_watt * most_lumens}};
+    if (const auto angle = punctual.half_angle) // the inner one has to be smaller
+      made["spot"] = {{"innerConeAngle", 0.999 * *angle}, {"outerConeAngle", *angle}};
     glb_.use("KHR_lights_punctual");
     Json& lights = glb_.json["extensions"]["KHR_lights_punctual"]["lights"];
     lights.push_back(std::move(made));
@@ -300,7 +292,7 @@ private:
     Json node{{"name", name},
               {"rotation", turn_to(light.direction, across)},
               {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}};
-    if (light.type != Type::directional) node["translation"] = three_numbers(placed(light.position));
+    if (!preset::has(light.type, LIGHT_HAS_IRRADIANCE)) node["translation"] = three_numbers(placed(light.position));
     add_node(std::move(node));
   }
 

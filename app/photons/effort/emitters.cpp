@@ -44,7 +44,7 @@ std::vector<double> sums(std::span<const double> values, std::size_t size) {
 void append_cdfs(const std::vector<double>& values, std::size_t size, std::vector<float>& table) {
   for (std::size_t i = 0; i < values.size(); i += size) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(i);
-    const std::vector<float> cdf = tracing::exact_cdf({first, first + static_cast<std::ptrdiff_t>(size)});
+    const std::vector<float> cdf = exact_cdf({first, first + static_cast<std::ptrdiff_t>(size)});
     table.insert(table.end(), cdf.begin(), cdf.end());
   }
 }

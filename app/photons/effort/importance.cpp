@@ -3,6 +3,7 @@
 // the materials that diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2).
 #include "photons/effort/importance.h"
 
+#include "lights/lights.h"
 #include "scene/ray.h"
 #include "tracing/targets.h"
 
@@ -74,8 +75,8 @@ std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<s
     light.power_w = light.irradiance_w_m2 = 1;
     std::vector<scene::Sphere> reached;
     std::ranges::copy_if(receivers, std::back_inserter(reached),
-                         [&](const scene::Sphere& sphere) { return tracing::reaches(light, sphere); });
-    parts.push_back(tracing::towards_targets_w(light, reached, scene.metres_per_unit));
+                         [&](const scene::Sphere& sphere) { return lights::model(light).reaches(light, sphere); });
+    parts.push_back(lights::model(light).towards_w(light, reached, scene.metres_per_unit));
   }
   return parts;
 }

@@ -49,7 +49,7 @@ std::vector<double> half_evenly(std::vector<double> parts, const std::vector<boo
 scene::Scene with_unit_lights(const scene::Scene& scene) {
   scene::Scene unit = scene;
   for (scene::Light& light : unit.lights)
-    (light.type == preset::Light::Type::directional ? light.irradiance_w_m2 : light.power_w) = 1;
+    (preset::has(light.type, LIGHT_HAS_IRRADIANCE) ? light.irradiance_w_m2 : light.power_w) = 1;
   return unit;
 }
 
@@ -76,7 +76,7 @@ LayerLight layer_light(const preset::Preset& preset) {
     const preset::Light& l = preset.scene.lights[i];
     light.spectra.push_back(
         scatter::make_light_spectrum(l.spectrum, Location(preset.source) / "scene" / "lights" / i / "spectrum"));
-    light.power.push_back(l.type == preset::Light::Type::directional ? l.irradiance_w_m2 : l.power_w);
+    light.power.push_back(preset::radiometric(l));
   }
   if (preset.scene.environment)
     if (const auto sun =
@@ -174,7 +174,7 @@ std::vector<float> layer_cluster_cdf(const LayerLight& light, const tracing::Wav
     for (std::size_t c = 0; c < parts.size(); ++c) parts[c] += light.power[l] * worth[c];
   }
   parts = half_evenly(std::move(parts), std::vector<bool>(tables.clusters.size(), false));
-  return tracing::exact_cdf_from_zero(parts);
+  return exact_cdf_from_zero(parts);
 }
 
 double layer_energy_scale(const LayerLight& light, const RunTables& tables) {

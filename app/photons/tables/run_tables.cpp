@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/tables/run_tables.h"
 
+#include "lights/lights.h"
 #include "photons/clusters/scene_clusters.h"
 #include "photons/effort/effort.h"
 #include "photons/effort/emitters.h"
@@ -47,10 +48,10 @@ void set_scales(const scene::Scene& scene, int samples, RunTables& tables) {
   double irradiance = 0;
   for (const scene::Light& light : scene.lights)
     irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(radius * metres, 2));
-  for (const shared::DeviceLight& light : tables.lights) // a mesh's solid_angle is its area
+  for (const shared::DeviceLight& light : tables.lights)
     if (light.type == LIGHT_MESH)
-      irradiance =
-          std::max(irradiance, light.radiometric * tables.power_unit / (light.solid_angle * metres * metres) * 0x1p-16);
+      irradiance = std::max(irradiance,
+                            light.radiometric * tables.power_unit / (light.as.mesh.area * metres * metres) * 0x1p-16);
   tables.direct_scale = tracing::power_of_two_below(std::exp2(24) * pi / irradiance);
   tables.direct_limit = std::exp2(62) / samples;
   tables.energy_scale = tracing::energy_scale(tables.light_towards_targets_w);
@@ -66,8 +67,8 @@ bool takes_even_sky(const Settings& settings, const scene::Scene& scene, const t
 
 void leave_peaks_to_photons(RunTables& tables) {
   tables.has_even_sky = true;
-  const auto light = std::ranges::find(tables.lights, LIGHT_ENVIRONMENT, &shared::DeviceLight::type);
-  light->edge_u = tables.sky->peak_colour;
+  const auto light = tables.lights.end() - 1; // the environment
+  light->as.environment.mean_colour = tables.sky->peak_colour;
   tables.towards_targets_w[static_cast<std::size_t>(light - tables.lights.begin())] *=
       tables.sky->size.has_peaks ? tables.sky->peak_part : 0;
   tables.light_towards_targets_w =
@@ -77,8 +78,8 @@ void leave_peaks_to_photons(RunTables& tables) {
 } // namespace
 
 int pixel_samples(const Settings& settings, const scene::Scene& scene) {
-  const bool all_points = std::ranges::all_of(
-      scene.lights, [](const scene::Light& light) { return !scene::is_environment(light) && !scene::has_size(light); });
+  const bool all_points =
+      std::ranges::none_of(scene.lights, [](const scene::Light& light) { return lights::has_places(light); });
   return settings.pixel_samples.value_or(all_points ? 64 : 4096);
 }
 

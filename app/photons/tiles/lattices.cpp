@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/tiles/lattices.h"
 
+#include "lights/lights.h"
 #include "tracing/lamp_tables.h"
 
 #include <glm/glm.hpp>
@@ -30,7 +31,7 @@ private:
   std::mt19937 engine_;
 };
 
-glm::dvec3 vector(const shared::float4& v) { return {v.x, v.y, v.z}; }
+using lights::vector;
 
 /// As a float, which rounding could make 1.
 float below_1(double number) { return std::min(static_cast<float>(number), 0x1.fffffep-1f); }
@@ -41,7 +42,7 @@ struct Disc {
   double part;
 };
 
-/// one_minus_cos_of in kernels/lights/emission.h.
+/// one_minus_cos_of in kernels/lights/targets.h.
 double one_minus_cos(const shared::float4& sphere, const glm::dvec3& from) {
   const double distance2 = glm::dot(vector(sphere) - from, vector(sphere) - from),
                radius2 = double{sphere.w} * sphere.w;
@@ -57,11 +58,10 @@ std::vector<Disc> discs_of(const RunTables& tables, int light_index, std::array<
   for (int t = 0; t < light.target_count; ++t) {
     const int target = light.first_target + t;
     const shared::float4& sphere = tables.targets[static_cast<std::size_t>(target)].centre_radius;
-    const bool parallel = light.type == LIGHT_DIRECTIONAL || light.type == LIGHT_ENVIRONMENT;
-    discs.push_back({t, parallel ? double{sphere.w} * sphere.w : one_minus_cos(sphere, from)});
+    discs.push_back({t, lights::is_parallel(light) ? double{sphere.w} * sphere.w : one_minus_cos(sphere, from)});
     sum += discs.back().part;
   }
-  if (light.type == LIGHT_SPOT && light.solid_angle <= 2 * pi * sum) return {{-1, 1}};
+  if (light.type == LIGHT_SPOT && light.as.spot.solid_angle <= 2 * pi * sum) return {{-1, 1}};
   for (Disc& disc : discs) disc.part /= sum;
   return discs;
 }
@@ -69,9 +69,7 @@ std::vector<Disc> discs_of(const RunTables& tables, int light_index, std::array<
 /// How many places of a lamp of a size, or directions of a sky, have a lattice: few show copies of the caustic, with
 /// many a lattice is coarse.
 double places_of(const shared::DeviceLight& light, double photons) {
-  const bool has_disc = light.type == LIGHT_DIRECTIONAL && light.one_minus_cos > 0;
-  const bool has_surface = light.type == LIGHT_AREA || light.type == LIGHT_MESH;
-  if (!has_surface && light.type != LIGHT_ENVIRONMENT && !has_disc) return 1;
+  if (!lights::has_places(light)) return 1;
   return std::max(1.0, std::round(std::pow(photons, 0.4)));
 }
 

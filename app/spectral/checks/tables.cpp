@@ -111,7 +111,7 @@ Result beer_lambert(const compute::Context& context, std::uint64_t) {
                   t.clusters.size()));
 }
 
-// kernels/lights/emission.h: the photons of a light towards spheres carry the power that the light sends there, also
+// kernels/lights/lights.h: the photons of a light towards spheres carry the power that the light sends there, also
 // where the spheres overlap. Errors are in standard deviations of the photons' own spread.
 
 constexpr std::size_t photon_count = 1 << 17;
@@ -132,9 +132,9 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   p.scene.lights = {light};
   photons::RunTables tables = device_tables(p);
   shared::DeviceLight& on_host = tables.lights.at(0);
+  const float4 place = on_host.type == LIGHT_DIRECTIONAL ? float4{} : on_host.as.point.position; // all rows begin so
   std::vector<shared::DeviceTarget> targets;
-  for (const float4& s : spheres)
-    targets.push_back({{s.x + on_host.position.x, s.y + on_host.position.y, s.z + on_host.position.z, s.w}});
+  for (const float4& s : spheres) targets.push_back({{s.x + place.x, s.y + place.y, s.z + place.z, s.w}});
   on_host.first_target = 0;
   on_host.target_count = static_cast<int>(targets.size());
   const compute::Buffer<float4> out(context, "photons", 2 * photon_count);

@@ -40,9 +40,8 @@ LightCurve make_curve(const preset::LightSpectrum& spectrum) {
 scene::Light without_place(const preset::Light& light, const LightCurve& curve) {
   scene::Light scene_light;
   scene_light.type = light.type;
-  const bool directional = light.type == preset::Light::Type::directional;
-  scene_light.power_w = directional ? 0 : light.power_w;
-  scene_light.irradiance_w_m2 = directional ? light.irradiance_w_m2 : 0;
+  (preset::has(light.type, LIGHT_HAS_IRRADIANCE) ? scene_light.irradiance_w_m2 : scene_light.power_w) =
+      preset::radiometric(light);
   scene_light.spectrum = curve.spectrum;
   return scene_light;
 }

@@ -2,15 +2,15 @@
 // Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
 // in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
 // inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
-#include "kernels/tracing/surface.h"
-#include "kernels/tracing/frame.h"
 #include "kernels/lights/light.h"
-#include "kernels/tracing/registers.h"
+#include "kernels/tracing/frame.h"
+#include "kernels/tracing/surface.h"
 
 typedef struct {
   float3 origin, direction; // the photon flies along origin + t direction, t > -behind
   float behind;             // the light is this far behind the origin, which may lie at a small target: see aim
   float watts; // power of the whole spectrum that this photon carries, times the number of photons; 0: not emitted
+  Source source;
 } Emission;
 
 // A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below (Malley).
@@ -94,67 +94,22 @@ static inline float sample_targets(__global const DeviceTarget* targets, int tar
   return steradians_a_photon(targets, target_count, chosen, sum, from, photon);
 }
 
-// What a photon of `steradians` = 1 / density carries of a light with a place. Radiance is power / (area pi), and the
-// place uniform, so a photon of an area light carries power cos(theta) / pi per steradian.
-static inline float watts_of(const DeviceLight* light, float3 direction, float steradians) {
-  if (is_light(light, LIGHT_AREA)) {
-    const float cosine = dot(direction, light->direction.xyz);
-    return cosine > 0.0f ? light->radiometric * cosine / PI_F * steradians : 0.0f;
-  }
-  if (is_light(light, LIGHT_POINT)) return light->radiometric * steradians / (4.0f * PI_F);
-  return in_spot(light, direction) ? light->radiometric * steradians / light->solid_angle : 0.0f;
-}
-
-// A photon anywhere in the cone of a spot: every one carries the same.
-static inline Emission emit_in_cone(const DeviceLight* light, float4 random) {
-  Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, light->radiometric};
-  float below;
-  float3 aside;
-  emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
-  return emission;
-}
-
-static inline Emission emit_from_point(const DeviceLight* light, __global const DeviceTarget* targets, float4 random) {
-  const int target_count = light->target_count;
-  Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
-  if (is_light(light, LIGHT_SPOT)) {
-    float towards_targets = 0.0f;
-    for (int i = 0; i < target_count; ++i)
-      towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
-    if (light->solid_angle <= towards_targets) return emit_in_cone(light, random); // the cone is the tighter one
-  }
-  const float steradians = sample_targets(targets, target_count, light->position.xyz, random, &emission);
-  emission.watts = watts_of(light, emission.direction, steradians);
-  return emission;
-}
-
-static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random,
-                                      float2 place) {
-  Emission emission;
-  const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
-  emission.behind *= UP_TO_LAMP;
-  emission.watts = watts_of(light, emission.direction, steradians);
-  return emission;
-}
-
 // What a photon of parallel light carries that starts at a place of the target `chosen`. sum: of the radii squared.
-static inline float parallel_watts(const DeviceLight* light, __global const DeviceTarget* targets,
-                                   const DeviceScene* scene, int chosen, float sum, float3 place) {
-  const float3 direction = light->direction.xyz;
+static inline float parallel_watts(float3 direction, float irradiance, __global const DeviceTarget* targets,
+                                   int target_count, const DeviceScene* scene, int chosen, float sum, float3 place) {
   int count = 1;
-  for (int i = 0; i < light->target_count; ++i) {
+  for (int i = 0; i < target_count; ++i) {
     const float3 way = place - targets[i].centre_radius.xyz;
     const float3 aside = way - dot(way, direction) * direction;
     if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
   }
   const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
-  return light->radiometric * square_metres / (float)count;
+  return irradiance * square_metres / (float)count;
 }
 
-static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets,
-                                        const DeviceScene* scene, float4 random) {
-  const float3 direction = light->direction.xyz;
-  const int target_count = light->target_count;
+// A photon of parallel light in a unit direction.
+static inline Emission emit_parallel(float3 direction, float irradiance, __global const DeviceTarget* targets,
+                                     int target_count, const DeviceScene* scene, float4 random) {
   float sum = 0.0f;
   for (int i = 0; i < target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
   int chosen = 0;
@@ -172,60 +127,49 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   const float radius = targets[chosen].centre_radius.w * sqrt(random.y);
   const float3 place = targets[chosen].centre_radius.xyz + radius * (cosine_phi * x + sine_phi * y);
   const Emission emission = {place, direction, scene->outside_distance,
-                             parallel_watts(light, targets, scene, chosen, sum, place)};
+                             parallel_watts(direction, irradiance, targets, target_count, scene, chosen, sum, place)};
   return emission;
 }
 
-// targets: the whole table. light: as source_of (spectrum.h) turns it into a light for one photon.
-COMPILED_ONCE Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
-                            float4 random, float2 place) {
-  targets += light->first_target;
-  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT))
-    return emit_directional(light, targets, scene, random);
-  if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
-  return emit_from_point(light, targets, random);
+// The same for a lattice, whose places in the square [-1, 1] x [-1, 1] stand for a target's shadow where they are on
+// the unit disc. d: derivatives by the place.
+static inline Emission parallel_lattice(float3 direction, float irradiance, __global const DeviceTarget* targets,
+                                        int target_count, const DeviceScene* scene, int target, float2 disc,
+                                        Differential d[2]) {
+  float3 x, y;
+  make_frame(direction, &x, &y);
+  float sum = 0.0f;
+  for (int i = 0; i < target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
+  const float4 sphere = targets[target].centre_radius;
+  const float3 place = sphere.xyz + sphere.w * (disc.x * x + disc.y * y);
+  const Emission emission = {
+      place, direction, scene->outside_distance,
+      parallel_watts(direction, irradiance, targets, target_count, scene, target, sum, place)};
+  d[0].position = sphere.w * x;
+  d[1].position = sphere.w * y;
+  d[0].direction = d[1].direction = (float3)(0.0f);
+  return emission;
 }
 
-// Where a photon of a lattice starts. disc: its place in the square [-1, 1] x [-1, 1], of which the unit disc stands
-// for the target of that number, or for the cone of a spot (-1): a disc of equal areas (Lambert's map), or the target's
-// shadow. d: derivatives by the place. The density is that of `emit` with as many photons in the disc as it sends
-// there.
-static inline Emission emit_on_lattice(const DeviceLight* light, __global const DeviceTarget* targets,
-                                       const DeviceScene* scene, int target, float2 disc, float2 place,
-                                       Differential d[2]) {
-  targets += light->first_target;
-  const int target_count = light->target_count;
-  Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
-  float3 x, y;
-  float sum = 0.0f;
-  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT)) {
-    make_frame(light->direction.xyz, &x, &y);
-    for (int i = 0; i < target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
-    const float4 sphere = targets[target].centre_radius;
-    emission.origin = sphere.xyz + sphere.w * (disc.x * x + disc.y * y);
-    emission.behind = scene->outside_distance;
-    emission.watts = parallel_watts(light, targets, scene, target, sum, emission.origin);
-    d[0].position = sphere.w * x;
-    d[1].position = sphere.w * y;
-    d[0].direction = d[1].direction = (float3)(0.0f);
-    return emission;
-  }
-  const float3 from = is_light(light, LIGHT_AREA) ? area_point(light, place) : light->position.xyz;
-  float3 axis = light->direction.xyz;
-  float one_minus_cos = light->one_minus_cos, distance = 0.0f;
+// A photon from a point into the cone of a target, or into another one (target -1), at a place of a lattice: the unit
+// disc is the cone's by equal areas (Lambert's map). Its watts are to come.
+static inline Emission cone_lattice(float3 from, float3 axis, float one_minus_cos,
+                                    __global const DeviceTarget* targets, int target, float2 disc, Differential d[2]) {
+  Emission emission = {from, axis, 0.0f, 0.0f};
+  float distance = 0.0f;
   if (target >= 0) {
     const float3 way = targets[target].centre_radius.xyz - from;
     distance = length(way);
     if (distance > 0.0f) axis = way / distance;
     one_minus_cos = one_minus_cos_of(targets[target].centre_radius, from);
   }
+  float3 x, y;
   make_frame(axis, &x, &y);
   const float below = one_minus_cos * dot(disc, disc);
   const float stretch = sqrt(one_minus_cos * (2.0f - below)); // sine of the angle over the radius
   const float3 outwards = disc.x * x + disc.y * y, aside = stretch * outwards;
   const bool is_far = target >= 0 && one_minus_cos <= 1e-3f; // as in aim
   emission.direction = normalize(aside + axis * (1.0f - below));
-  emission.origin = from;
   if (is_far) {
     emission.behind = distance / (1.0f - below);
     emission.origin = targets[target].centre_radius.xyz + emission.behind * aside;
@@ -236,11 +180,5 @@ static inline Emission emit_on_lattice(const DeviceLight* light, __global const 
     d[i].direction = d_aside - d_below * axis;
     d[i].position = is_far ? emission.behind * (d_aside + aside * (d_below / (1.0f - below))) : (float3)(0.0f);
   }
-  emission.watts = light->radiometric;
-  if (target < 0) return emission;
-  for (int i = 0; i < target_count; ++i) sum += one_minus_cos_of(targets[i].centre_radius, from);
-  emission.watts =
-      watts_of(light, emission.direction, steradians_a_photon(targets, target_count, target, sum, from, &emission));
-  emission.behind *= UP_TO_LAMP;
   return emission;
 }
