@@ -75,7 +75,8 @@ kernel void conductors(global const float4* in, global float4* out, uint count) 
   if (i < count) out[i] = (float4)(conductor_reflectance(in[i].x, in[i].y, in[i].z), 0.0f, 0.0f, 0.0f);
 }
 
-// in: cos_i, n before and beyond, then n of a thin film; its thickness in wavelengths. out: x: the interface's reflectance.
+// in: cos_i, n before and beyond, then n of a thin film; its thickness in wavelengths. out: x: the interface's
+// reflectance.
 kernel void coatings(global const float4* in, global float4* out, uint count) {
   const uint i = work_item();
   if (i >= count) return;
@@ -90,8 +91,9 @@ kernel void coatings(global const float4* in, global float4* out, uint count) {
 kernel void visible_microfacets(global const float4* view, uint2 seed, global float4* out, uint count) {
   const uint i = work_item();
   const float3 up = (float3)(0.0f, 0.0f, 1.0f);
-  if (i < count)
-    out[i] = (float4)(visible_microfacet(view->xyz, up, view->w, microfacet_numbers(seed, 0u, i, 0u, STREAM_PHOTONS)), 0.0f);
+  if (i >= count) return;
+  const float2 u = microfacet_numbers(seed, 0u, i, 0u, STREAM_PHOTONS);
+  out[i] = (float4)(visible_microfacet(view->xyz, up, view->w, u), 0.0f);
 }
 
 // in: a direction that meets the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one, its cosine.

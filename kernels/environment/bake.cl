@@ -124,7 +124,8 @@ static inline void visit_segment(const World* world, Visitor* photon, const Path
 #include "kernels/transport/walk.h"
 
 // Sends photons first .. first + count - 1 of a direction, whose number keys its random numbers. scale: quanta a watt.
-__kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global const float* radii, volatile __global long* film,
+__kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global const float* radii,
+                   volatile __global long* film,
                    volatile __global long* energy, // [OUTCOME_COUNT]
                    int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count,
                    float scale) {

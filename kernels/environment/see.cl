@@ -24,8 +24,8 @@ static inline DeviceEnd end_of(const World* world, Visitor* eye, Path path, Hit 
     int last;
     if (follow_eye_path(world, eye, &path, &hit, &at, &last) == 0.0f) return end;
   }
-  float3 throughput = eye->radiance_scale * wavelength_left(&world->tables, &path.losses, max(eye->band.wavelength, 0)) *
-                      (eye->share * weight);
+  const float left = wavelength_left(&world->tables, &path.losses, max(eye->band.wavelength, 0));
+  float3 throughput = eye->radiance_scale * left * (eye->share * weight);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
     end.throughput = (float4)(throughput, (float)END_SKY);
     end.place = (float4)(path.direction, 0.0f);

@@ -36,7 +36,8 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
     const float3 reflected =
-        band->cluster < 0 ? reflected_colour_of(world->reflected_xyz_all, l * world->scene.reflector_count, reflector).xyz
+        band->cluster < 0
+            ? reflected_colour_of(world->reflected_xyz_all, l * world->scene.reflector_count, reflector).xyz
                           : carried_light(world, &path->losses, lamp, band, reflector).xyz;
     xyz += reflected * (irradiance / PI_F);
   }
@@ -45,7 +46,8 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
 
 // Follows a path that has hit `first` on through glass and mirrors. Returns the XYZ radiance of its band alone. Where
 // all its wavelengths go the same way (cluster -1), a coat that it meets first sends it to the base, else back.
-IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, uint2 seed, uint sample, uint pixel) {
+IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, uint2 seed, uint sample,
+                       uint pixel) {
   Visitor eye =
       eye_visitor(band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA);
   if (is_in_air(&path.media) && shows_coat(world, &first))
@@ -56,7 +58,8 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
   if (radiance_scale == 0.0f) return xyz;
   const bool shines = !eye.by_microfacets && dot(path.direction, at.surface.geometric) < 0.0f;
   const Reflector reflector = reflector_at(world, &at.surface, at.triangle);
-  return xyz + radiance_scale * shade(world, &path, &at.surface, at.triangle, shines, reflector, band, seed, sample, pixel);
+  return xyz + radiance_scale * shade(world, &path, &at.surface, at.triangle, shines, reflector, band, seed, sample,
+                                      pixel);
 }
 
 // samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
@@ -89,7 +92,8 @@ __kernel void direct(WORLD_ARGUMENTS,
     Band band = whole_cluster(-1);
     SET_ASIDE float probability = 1.0f;
     if (bent) {
-      const int cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, frame, number, PATHS_THROUGH_GLASS,
+      const int cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, frame, number,
+                                         PATHS_THROUGH_GLASS,
                                          pixel, STREAM_CAMERA_CLUSTER);
       probability = (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
       band =

@@ -92,8 +92,8 @@ static inline WalkNumbers visitor_numbers(const Visitor* eye, const Interaction*
   return numbers;
 }
 
-// Adds the unbent light that falls on a diffuse surface, from the second of them on, and scatters the path there. random.z:
-// decides by what is left of its light whether it ends.
+// Adds the unbent light that falls on a diffuse surface, from the second of them on, and scatters the path there.
+// random.z: decides by what is left of its light whether it ends.
 static inline bool visit_base(const World* world, Visitor* eye, Path* path, const Interaction* at, int n) {
   const Reflector reflector = reflector_at(world, &at->surface, at->triangle);
   if (eye->scatterings > 0u) eye->xyz += unbent_light(world, eye, path, at, reflector);

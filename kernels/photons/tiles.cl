@@ -53,8 +53,8 @@ static inline Reflector reflector_of_tile(const World* world, const Surface* sur
 
 #if NEPHROID_DIFFERENTIALS
 // The light of the part 0 .. u of a cluster's distribution of wavelengths, in a row of the tables of lights.
-static inline float3 light_before(const World* world, __global const float* cdf, int row, Reflector reflector, int first, int count,
-                                  float u) {
+static inline float3 light_before(const World* world, __global const float* cdf, int row, Reflector reflector,
+                                  int first, int count, float u) {
   u = fmin(u, 0x1.fffffep-1f);
   const int member = choose(cdf, count, u), members = world->tables.cluster_first[world->scene.cluster_count];
   const int wavelength = world->tables.cluster_wavelengths[first + member];

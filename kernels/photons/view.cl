@@ -79,7 +79,8 @@ __kernel void view(WORLD_ARGUMENTS, __global VisiblePoint* points,
     float weight = 1.0f / (float)path_count;
     const bool reflected = cluster < 0 && has_coat(&met);
     if (cluster < 0 && bent) {
-      cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel, STREAM_VIEW_CLUSTER);
+      cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel,
+                               STREAM_VIEW_CLUSTER);
       weight /= (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]);
     }
     if (cluster >= 0) {
