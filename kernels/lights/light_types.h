@@ -48,7 +48,7 @@ typedef struct {
 typedef struct {
   float4 position;
   float4 direction; // unit: of the cone's axis
-  float one_minus_cos; // 1 - cos of the cone's half angle; less than NARROW_SPOT: see is_narrow (light.h)
+  float one_minus_cos; // 1 - cos of the cone's half angle; less than NARROW_SPOT: see is_narrow (spot.h)
   float solid_angle;   // of the cone, in steradians
 } DeviceSpot;
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a light can do. Each is a file of this folder, by the list in light_types.h, and says three things of itself:
-//   WORD_has_places  whether its light comes from different places: of a surface, of a disc far away, of the sky
-//   WORD_place       one of them, for two numbers in [0, 1): even over its light
-//   WORD_watts       the power that it sends from there into a small solid angle about a direction
+//   point_has_places  whether its light comes from different places: of a surface, of a disc far away, of the sky
+//   point_place       one of them, for two numbers in [0, 1): even over its light
+//   point_watts       the power that it sends from there into a small solid angle about a direction
 // The rest follows, and is below: a sample towards a point (sample_towards), a photon (emit) or one of a lattice with
 // its footprint (emit_on_lattice). Radiance is for meshes to say (is_on_lamp, mesh_radiance), which alone paths meet,
-// and for background.h. Power is DeviceLight::radiometric. pbrt-v4 has the same verbs: SampleLi, SampleLe, L, Phi
-// (base/light.h).
+// and for background.h. Power is DeviceLight::radiometric. pbrt-v4 has the same verbs: SampleLi, SampleLe, L, Phi.
 #include "kernels/lights/area.h"
 #include "kernels/lights/directional.h"
 #include "kernels/lights/environment.h"
