@@ -8,6 +8,7 @@
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scatter/spectra.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
