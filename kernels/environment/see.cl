@@ -103,9 +103,9 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     const int channel = i < ENDS_OF_PIXEL - 1 ? i : (ENDS_OF_PIXEL - 1) / 2;
     const bool straight = !bent || (coated && i == 0), reflected = i == ENDS_OF_PIXEL - 1;
     const Band band = straight ? whole_cluster(0) : band_of_channel(channel_cdf, channel, u);
-    const float3 weight = straight || reflected || ENDS_OF_PIXEL == 2
-                              ? (float3)(1.0f)
-                              : (float3)(channel == 0, channel == 1, channel == 2);
+    const int channels = straight || reflected ? 1 : ENDS_OF_PIXEL - 1; // that this way brings apart from each other
+    const float3 weight =
+        channels == 1 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2);
     Visitor visitor = eye_visitor(&band, seed, ENDS_OF_PIXEL * pass + (uint)i, 0u, pixel, STREAM_SEE);
     visitor.likelier = coarse;
     visitor.drops_one_way = reflected;

@@ -112,8 +112,8 @@ static inline bool dielectric_scatter(const World* world, Path* path, const Inte
   Sides sides;
   if (!find_sides(&path->media, surface, world->objects, n_of, path->direction, &sides)) return false;
   const ThinFilm coating = coating_of(world, &at->material, band);
-  const bool coated = NEPHROID_COATINGS && coating.thickness > 0.0f && sides.near_object != sides.far_object;
-  if (!NEPHROID_BENDING || (sides.n_near == sides.n_far && !coated)) { // one medium hides the other, or they are alike
+  const bool coated = coating.thickness > 0.0f && sides.near_object != sides.far_object;
+  if (NEPHROID_BENDING == 0 || (sides.n_near == sides.n_far && !coated)) { // one hides the other, or they are alike
     sample->direction = path->direction;
     sample->transmitted = sample->straight = true;
     sample->reflectance = 0.0f;
