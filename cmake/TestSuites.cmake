@@ -9,6 +9,7 @@ endif()
 # Seconds that the longest suites take on two cores, with kernels to compile. ctest starts what costs most first, so
 # that none of these is left running alone at the end.
 set(seconds images.All/ShippedPreset 118 hostile.Resumed 105 hostile.Runs 84 environment.EnvironmentRun 76
+  physics.Kernels/CheckFault 70 environment.EnvironmentRefined 65 physics.TilesAndPoints 62 hostile.CheckVerb 61
   environment.EnvironmentViewJob 61
   hostile.Animations 55 images.Presets/ErrorEstimate 45 inverse.InverseRun 41 hostile.Measured 38 ui.FailingMemory 36
   environment.VolumePhotons 29 environment.EnvironmentView 27)

@@ -11,6 +11,8 @@ what an earlier one wrote. What is cut, and nothing else (CUT and cut_short):
 - `run` has one pass, a picture of 64 x 64 pixels, no reference, few photons, few facets and a small bake, and of an
   animation two frames. Where the command itself has at most 2 passes it keeps them. Before that, `plan` is asked about
   the same preset and settings as they stand, at full size.
+- `export` renders its picture of light for a second.
+- `check` is run by tests of its own; here its arguments are checked.
 - a window opens on a virtual display, with 3 frames and a screenshot. Where there is no Xvfb, it is not run.
 
 Every option that a command in running text has must be one of its verb. What was run, checked for its arguments only,
@@ -212,8 +214,12 @@ class Runner:
         elif command.words and command.words[0] == "run" and "--help" not in command.words:
             self.counts["run"] += 1
             self.run_run(command, folder)
+        elif command.words and command.words[0] == "check":
+            self.counts["checked for its arguments only"] += 1
         elif command.words and (command.words[0] in self.verbs or command.words[0] in ("--help", "--version")):
             self.counts["run"] += 1
+            if command.words[0] == "export" and (found := value_of(command.words, "--seconds")):
+                command.words[found[0] + 1] = "1"
             self.run(command, folder, command.words)
         else:
             self.run_window(command, folder)

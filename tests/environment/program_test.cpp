@@ -25,7 +25,7 @@ protected:
 };
 
 TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets) {
-  for (const std::string name : {"ball", "beam", "bunny", "glass", "ring", "brilliant"}) {
+  for (const std::string name : {"ball", "beam", "brilliant"}) {
     SCOPED_TRACE(name);
     const Ended ended = run_to(name, name, {"--passes", "2"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -34,8 +34,8 @@ TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets) {
     EXPECT_EQ(all.at("passes"), 2);
     EXPECT_EQ(all.at("bake").at("from_file"), 0);
     EXPECT_EQ(all.at("lights").at("count"), 24);
-    // Glass and diamond hold light longer than its surfaces are counted.
-    EXPECT_LT(all.at("energy").at("lost").get<double>(), name == "brilliant" ? 0.05 : name == "glass" ? 0.025 : 1e-3);
+    // Diamond holds light longer than its surfaces are counted.
+    EXPECT_LT(all.at("energy").at("lost").get<double>(), name == "brilliant" ? 0.05 : 1e-3);
     const nephroid::image::Image image = nephroid::image::read_image(folder / name / "image.exr");
     EXPECT_EQ(image.width, 210);
     EXPECT_EQ(std::ranges::count(image.channels, "caustic.G"), 1);
