@@ -267,6 +267,7 @@ void Judge::advance() {
 }
 
 void Judge::judge_rows(OneLight& light, std::uint32_t first, std::uint32_t count, std::uint32_t turn) {
+  const shared::DeviceJudgeLaunch launch{seed_, turn, first, count, 0};
   judge_.run(count, work_group,
              {{"nodes", solid_.nodes},
               {"blocks", solid_.blocks},
@@ -276,10 +277,7 @@ void Judge::judge_rows(OneLight& light, std::uint32_t first, std::uint32_t count
               {"parts", parts_},
               {"lamp_places", light.lamp_places},
               {"screens", light.receivers},
-              {"seed", seed_},
-              {"turn", turn},
-              {"first_row", first},
-              {"count", count},
+              {"launch", launch},
               {"light", light.sums[turn % 2]},
               {"outcomes", light.outcomes}});
 }

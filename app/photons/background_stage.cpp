@@ -65,7 +65,6 @@ public:
         tables_(make_background_tables(*scene.environment, *settings.pixel_samples)),
         texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),
         primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),
-        wavelengths_(compute::Buffer(world.context, "wavelengths", optics::all_wavelengths())),
         spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf)) {
     compute::Defines defines = world.eye_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
@@ -75,15 +74,12 @@ public:
 
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
-    world_.run(kernel_, count, 64,
-               {{"texels", texels_},
-                {"primary_xyz", primary_xyz_},
-                {"size", tables_.size},
-                {"wavelengths", wavelengths_},
-                {"spectrum_cdf", spectrum_cdf_},
-                {"film_scale", static_cast<float>(tables_.film_scale)}},
-               more);
+    world_.run(
+        kernel_, count, 64,
+        {{"texels", texels_}, {"primary_xyz", primary_xyz_}, {"size", tables_.size}, {"spectrum_cdf", spectrum_cdf_}},
+        more);
   }
+  float film_scale() const override { return static_cast<float>(tables_.film_scale); }
   double limit() const override { return tables_.limit; }
   double quanta_per_unit() const override { return tables_.film_scale * world_.white / radiance_; }
 
@@ -91,7 +87,6 @@ private:
   BackgroundTables tables_;
   compute::Buffer<float> texels_;
   compute::Buffer<shared::float4> primary_xyz_;
-  compute::Buffer<int> wavelengths_;
   compute::Buffer<float> spectrum_cdf_;
   compute::Kernel kernel_;
 };

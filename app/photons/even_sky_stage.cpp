@@ -21,8 +21,7 @@ public:
 
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
-    world_.run(kernel_, count, 64,
-               {{"light_index", light_}, {"film_scale", world_.on_device(world_.tables.direct_scale)}}, more);
+    world_.run(kernel_, count, 64, {{"light_index", light_}}, more);
   }
 
   int light_; ///< index of the environment in the table of lights: the last one

@@ -75,6 +75,8 @@ public:
 protected:
   /// Runs the kernel with the stage's own arguments and `more`.
   virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
+  /// Quanta of the film for a value of 1 on the device.
+  virtual float film_scale() const { return world_.on_device(world_.tables.direct_scale); }
   /// The most quanta of each of a pixel's first pixel_samples contributions. All later ones cannot overflow the film.
   virtual double limit() const { return world_.tables.direct_limit; }
   /// The film's quanta for a value of 1 in the picture.
@@ -85,14 +87,9 @@ protected:
 private:
   void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera,
            const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
-    run(count, {{"film", film},
-                {"energy", world_.energy},
-                {"camera", camera},
-                {"seed", world_.seed},
-                {"samples", samples},
-                {"count", count},
-                {"enough", enough_},
-                {"film_limit", static_cast<float>(limit())}});
+    const shared::DeviceSampleLaunch launch{world_.seed, count, enough_, film_scale(), static_cast<float>(limit())};
+    run(count,
+        {{"film", film}, {"energy", world_.energy}, {"camera", camera}, {"samples", samples}, {"launch", launch}});
   }
 
   const char *name_, *layer_;

@@ -162,20 +162,19 @@ public:
 private:
   bool send(std::int64_t pass) {
     if (slices_.at_start()) stored_.fill_zero(); // each photon is stored by one rank
+    shared::DevicePhotonLaunch launch = world_.photon_launch();
+    launch.emitter_count = static_cast<int>(tables_.emitters.size());
+    launch.film_scale = world_.on_device(tables_.film_scale);
+    launch.energy_scale = world_.on_device(tables_.energy_scale);
+    launch.stored_scale = world_.on_device(photons().per_watt);
     return slices_.advance(world_.context.communicator(), tables_.photons_per_pass,
                            [&](const tracing::PhotonSlice& slice) {
-                             world_.send(kernel_, slice, pass,
+                             world_.send(kernel_, slice, pass, launch,
                                          {{"emitters", emitters_},
-                                          {"emitter_count", static_cast<int>(tables_.emitters.size())},
                                           {"spectrum_cdf", spectrum_cdf_},
                                           {"film", film_},
                                           {"energy", energy_},
-                                          {"stored", stored_},
-                                          {"object_count", static_cast<int>(world_.tables.objects.size())},
-                                          {"seed", world_.seed},
-                                          {"film_scale", world_.on_device(tables_.film_scale)},
-                                          {"energy_scale", world_.on_device(tables_.energy_scale)},
-                                          {"stored_scale", world_.on_device(photons().per_watt)}});
+                                          {"stored", stored_}});
                            }) > 0;
   }
 

@@ -22,7 +22,7 @@ public:
 
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
-    world_.run(kernel_, count, 64, {{"film_scale", world_.on_device(world_.tables.direct_scale)}}, more);
+    world_.run(kernel_, count, 64, more);
   }
 
   compute::Kernel kernel_;

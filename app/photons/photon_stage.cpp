@@ -96,29 +96,27 @@ private:
     // A batch that may be reallocated, of a number that is a power of 2, begins a slice.
     const std::int64_t reallocated = static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(batch) + 1)),
                        most = std::min<std::int64_t>(end - batch_, by_variance_ ? reallocated - batch : t.batches);
+    shared::DevicePhotonLaunch launch = world_.photon_launch();
+    launch.first_iteration = static_cast<std::uint32_t>(allocation_.first_iteration());
+    launch.photons_per_batch = t.photons_per_batch;
+    launch.map_pass = static_cast<std::uint32_t>(pass);
+    launch.stored_first = static_cast<std::uint32_t>(batch_) * t.photons_per_batch;
+    launch.emitter_count = t.scene.emitter_count;
+    launch.film_scale = world_.on_device(t.caustic_scale);
+    launch.energy_scale = world_.on_device(t.energy_scale);
+    launch.stored_scale = world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w));
+    launch.unseen_weight = unseen_weight();
     batch_ += slices_.advance(
         world_.context.communicator(), t.photons_per_batch,
         [&](const tracing::PhotonSlice& slice) {
-          world_.send(
-              kernel_, slice, batch,
-              {{"emitters", world_.emitters},
-               {"film", film_},
-               {"energy", splats_ ? world_.energy : own_energy_},
-               {"moments", moments_},
-               {"guide_moments", guide_moments_},
-               {"guide", guide_table_},
-               {"unseen_weight", unseen_weight()},
-               {"stored", stored_},
-               {"stored_first", static_cast<std::uint32_t>(batch_) * t.photons_per_batch},
-               {"map_pass", static_cast<std::uint32_t>(pass)},
-               {"photons_per_batch", t.photons_per_batch},
-               {"emitter_count", t.scene.emitter_count},
-               {"object_count", static_cast<int>(t.objects.size())},
-               {"seed", world_.seed},
-               {"first_iteration", static_cast<std::uint32_t>(allocation_.first_iteration())},
-               {"film_scale", world_.on_device(t.caustic_scale)},
-               {"energy_scale", world_.on_device(t.energy_scale)},
-               {"stored_scale", world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w))}});
+          world_.send(kernel_, slice, batch, launch,
+                      {{"emitters", world_.emitters},
+                       {"film", film_},
+                       {"energy", splats_ ? world_.energy : own_energy_},
+                       {"moments", moments_},
+                       {"guide_moments", guide_moments_},
+                       {"guide", guide_table_},
+                       {"stored", stored_}});
         },
         most);
   }

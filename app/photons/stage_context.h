@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages of a job share: the scene on its device, the run's tables, the energy counters.
 #pragma once
+#include "kernels/photons/launch_types.h"
 #include "photons/coarse.h"
 #include "photons/maps/photon_map.h"
 #include "photons/tables/run_tables.h"
@@ -56,15 +57,21 @@ struct StageContext : tracing::World {
   compute::Buffer<std::int64_t> preview_film() const {
     return zeroed("preview", std::size_t{3} * halves * (preview.blocks.edge > 0 ? preview.blocks.count() : 0));
   }
+  /// A launch of a photons' kernel that says what all launches say.
+  shared::DevicePhotonLaunch photon_launch() const {
+    shared::DevicePhotonLaunch launch{};
+    launch.seed = seed;
+    launch.object_count = static_cast<int>(tables.objects.size());
+    return launch;
+  }
   /// Runs a kernel that sends a slice of the photons of a pass.
   void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t iteration,
-            std::initializer_list<compute::Argument> own) {
-    run_photons(kernel, slice.count, own,
-                {{"camera", tables.camera},
-                 {"iteration", static_cast<std::uint32_t>(iteration)},
-                 {"offset", slice.offset},
-                 {"stride", slice.stride},
-                 {"count", slice.count}});
+            shared::DevicePhotonLaunch launch, std::initializer_list<compute::Argument> own) {
+    launch.iteration = static_cast<std::uint32_t>(iteration);
+    launch.offset = slice.offset;
+    launch.stride = slice.stride;
+    launch.count = slice.count;
+    run_photons(kernel, slice.count, own, {{"camera", tables.camera}, {"launch", launch}});
   }
   /// A scale for powers in the device's unit.
   float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }

@@ -140,19 +140,15 @@ private:
   }
 
   void send(std::uint32_t first, std::uint32_t count) {
-    world_.run_photons(kernel_, count,
-                       {{"lattices", on_device_},
-                        {"views", views_},
-                        {"film", film_},
-                        {"energy", energy_},
-                        {"lattice_count", static_cast<int>(lattices_.lattices.size())},
-                        {"camera", world_.tables.camera},
-                        {"seed", world_.seed},
-                        {"iteration", static_cast<std::uint32_t>(batches_)},
-                        {"first", first},
-                        {"count", count},
-                        {"film_scale", world_.on_device(world_.tables.caustic_scale * growth())},
-                        {"energy_scale", world_.on_device(world_.tables.energy_scale * growth())}});
+    shared::DevicePhotonLaunch launch = world_.photon_launch();
+    launch.film_scale = world_.on_device(world_.tables.caustic_scale * growth());
+    launch.energy_scale = world_.on_device(world_.tables.energy_scale * growth());
+    world_.send(kernel_, {first, 1, count}, batches_, launch,
+                {{"lattices", on_device_},
+                 {"lattice_count", static_cast<int>(lattices_.lattices.size())},
+                 {"views", views_},
+                 {"film", film_},
+                 {"energy", energy_}});
   }
 
   void end_round() {

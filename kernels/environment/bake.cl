@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Algorithm 3.1 of the thesis: photons of parallel light from one direction meet an object of glass or a mirror, and
 // mark each sphere about its middle that they cross afterwards, outside of it.
+#include "kernels/environment/render_types.h"
 #include "kernels/environment/sphere_map.h"
 #include "kernels/lights/targets.h"
 #include "kernels/tracing/low_discrepancy.h"
@@ -123,29 +124,27 @@ static inline void visit_segment(const World* world, Visitor* photon, const Path
 #define WALK_LOBES
 #include "kernels/transport/walk.h"
 
-// Sends photons first .. first + count - 1 of a direction, whose number keys its random numbers. scale: quanta a watt.
 __kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global const float* radii,
                    volatile __global long* film,
                    volatile __global long* energy, // [OUTCOME_COUNT]
-                   int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count,
-                   float scale) {
+                   DeviceBakeLaunch launch) {
   const World world = WORLD;
-  const Spheres spheres = {film, radii, sphere_count, side};
+  const Spheres spheres = {film, radii, launch.sphere_count, launch.side};
   __global const DeviceLight* light = world.lights;
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
-    if (item >= count) break;
-    const uint photon = first + item;
-    const float4 start = sobol4(seed, (uint3)(number, 0u, 0u), 0u, photon);
+    if (item >= launch.count) break;
+    const uint photon = launch.first + item;
+    const float4 start = sobol4(launch.seed, (uint3)(launch.number, 0u, 0u), 0u, photon);
     const Emission emission =
-        emit_parallel(direction.xyz, light->radiometric, world.targets + light->first_target, light->target_count,
-                      &scene, start.zxyw); // x and y are the best pair
-    const float power = emission.watts * scale;
+        emit_parallel(launch.direction.xyz, light->radiometric, world.targets + light->first_target,
+                      light->target_count, &scene, start.zxyw); // x and y are the best pair
+    const float power = emission.watts * launch.scale;
     const Band band = choose_band(&world, 0, 0, start.w);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
                  light->inside,   no_losses(),        emission.behind};
-    Visitor visitor = {&spheres, light_rgb, band, power, seed, number, photon, false, (float4)(0.0f)};
+    Visitor visitor = {&spheres, light_rgb, band, power, launch.seed, launch.number, photon, false, (float4)(0.0f)};
     Hit hit;
     Interaction at;
     int surfaces;

@@ -2,19 +2,20 @@
 // What stands around the caustic object: the distance from the object's middle to the first surface, in texels of a
 // cube that some path needs, and its unit normal on the middle's side. The tree is without the object.
 #include "kernels/environment/cube.h"
+#include "kernels/environment/render_types.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/tracing/world.h"
 
 // list: texels. distances: [texel]: INFINITY where there is nothing.
-__kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
+__kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, DeviceTexels of_list,
                         __global float* distances, __global float4* facing) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= count) return;
-  const uint texel = list[first + index];
-  const float3 direction = cube_texel_direction(texel, size);
-  const Hit hit = closest_hit(world.geometry.nodes, world.geometry.blocks, world.geometry.root, middle.xyz, direction,
-                              0.0f, INFINITY, NEPHROID_NO_PRIMITIVE);
+  if (index >= of_list.count) return;
+  const uint texel = list[of_list.first + index];
+  const float3 direction = cube_texel_direction(texel, of_list.size);
+  const Hit hit = closest_hit(world.geometry.nodes, world.geometry.blocks, world.geometry.root, of_list.middle.xyz,
+                              direction, 0.0f, INFINITY, NEPHROID_NO_PRIMITIVE);
   distances[texel] = hit.primitive == NEPHROID_NO_PRIMITIVE ? INFINITY : hit.t;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
   const float3 normal = surface_at(&world.geometry, hit).geometric;

@@ -61,7 +61,66 @@ typedef struct {
   float4 shading;    // surface: the shading normal on that side; w: the reflector. sky: v; w: at.y
 } DeviceEnd;
 
+// Blocks first, ..., first + count - 1 of block x block pixels, row after row, in a pass.
+typedef struct {
+  uint2 seed;
+  uint pass;
+  int block;
+  uint first, count;
+} DeviceBlocks;
+
+// Texels first, ..., first + count - 1 of a list of those of the cube of receivers, which has size x size a face.
+typedef struct {
+  float4 middle; // of the cube
+  uint first, count;
+  int size;
+  int light_count; // shadows.cl: lights that the environment is cut into
+} DeviceTexels;
+
+// The object's axes in the scene.
+typedef struct {
+  float4 x, y, z;
+} DeviceAxes;
+
+// What shade.cl says beside its buffers.
+typedef struct {
+  float4 middle; // of the cube of receivers, which has size x size texels a face
+  DeviceBackground background;
+  DeviceBlocks blocks;
+  int size;
+  int width, height; // of the picture
+  int anew;          // 1: sums begin anew
+  float radiance;    // of the texel (1, 1, 1)
+  float power_unit;
+  int sky_light_count;
+  int lit_first; // where lit_rgb begins in the table of colours
+} DeviceShading;
+
+// What volume.cl says of the medium, and beside its buffers.
+typedef struct {
+  float4 middle; // of the spheres and of the cube of receivers, which has size x size texels a face
+  DeviceAxes object;
+  DeviceSpheres spheres;
+  DeviceBlocks blocks;
+  float extinction; // 1 / unit
+  float albedo, anisotropy;
+  int rayleigh;
+  int size;
+  int anew; // 1: sums begin anew
+} DeviceMedium;
+
+// What bake.cl says: photons first, ..., first + count - 1 of a direction, whose number keys their random numbers.
+typedef struct {
+  float4 direction;
+  uint2 seed;
+  uint number, first, count;
+  int sphere_count, side; // spheres of a direction; texels across the map of one
+  float scale;            // quanta a watt
+} DeviceBakeLaunch;
+
 #ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DeviceBlocks) == 24 && sizeof(DeviceTexels) == 32 && sizeof(DeviceShading) == 96);
+static_assert(sizeof(DeviceMedium) == 128 && sizeof(DeviceBakeLaunch) == 48);
 static_assert(sizeof(DeviceEightSets) == 448 && sizeof(DeviceSpheres) == 16 && sizeof(DeviceEnd) == 64);
 } // namespace nephroid::shared
 #endif

@@ -69,25 +69,25 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 #endif
 }
 
-// Traces the paths of blocks first .. first + count - 1 of block x block pixels, row after row. ends: ENDS_OF_PIXEL for
-// each. A pixel that first sees glass follows both reflection and the way through, this one in three colours where
-// glass parts them. In a coarse picture, of larger blocks, paths take the likelier way at later surfaces, because one
-// that did not would stand out as a block.
+// Traces the paths of blocks of pixels. ends: ENDS_OF_PIXEL for each. A pixel that first sees glass follows both
+// reflection and the way through, this one in three colours where glass parts them. In a coarse picture, of larger
+// blocks, paths take the likelier way at later surfaces, because one that did not would stand out as a block.
 __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states,
-                  int size, float4 middle, DeviceCamera camera, uint2 seed, uint pass, int block, uint first,
-                  uint count) {
+                  int size, float4 middle, DeviceCamera camera, DeviceBlocks blocks) {
   const World world = WORLD;
+  const int block = blocks.block;
   const uint index = work_item();
-  if (index >= count) return;
-  const uint item = first + index;
+  if (index >= blocks.count) return;
+  const uint item = blocks.first + index;
   const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,
             row = (int)item / columns * block;
   const uint pixel = (uint)(row * camera.width + column);
   const bool coarse = block > 1;
-  const float2 jitter = coarse ? (float2)(0.5f * (float)block) : eye_numbers(seed, pass, 1u, pixel, 0u, STREAM_SEE).xy;
-  const float2 edges = piece_edges(pass / NEPHROID_FILM_HALVES);
+  const float2 jitter = coarse ? (float2)(0.5f * (float)block)
+                               : eye_numbers(blocks.seed, blocks.pass, 1u, pixel, 0u, STREAM_SEE).xy;
+  const float2 edges = piece_edges(blocks.pass / NEPHROID_FILM_HALVES);
   EYE_OF(camera);
-  begin_on_lens(eye, pixel, jitter, seed, pass, 1u, STREAM_SEE);
+  begin_on_lens(eye, pixel, jitter, blocks.seed, blocks.pass, 1u, STREAM_SEE);
   Path path = path_from_eye(eye, primary_direction(eye, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
   bool bent = false, coated = false;
@@ -97,7 +97,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     coated = has_coat(&met);
   }
   SET_ASIDE float3 outwards = path.direction;
-  SET_ASIDE float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
+  SET_ASIDE float u = coarse ? 0.5f : golden_place(blocks.seed, blocks.pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) {
     // All colours are reflected the same way and nearly as much, so one of them is followed. It has the last end.
     const int channel = i < ENDS_OF_PIXEL - 1 ? i : (ENDS_OF_PIXEL - 1) / 2;
@@ -106,7 +106,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     const int channels = straight || reflected ? 1 : ENDS_OF_PIXEL - 1; // that this way brings apart from each other
     const float3 weight =
         channels == 1 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2);
-    Visitor visitor = eye_visitor(&band, seed, ENDS_OF_PIXEL * pass + (uint)i, 0u, pixel, STREAM_SEE);
+    Visitor visitor = eye_visitor(&band, blocks.seed, ENDS_OF_PIXEL * blocks.pass + (uint)i, 0u, pixel, STREAM_SEE);
     visitor.likelier = coarse;
     visitor.drops_one_way = reflected;
     if (bent) visitor.first_lobes = straight ? LOBE_DIFFUSE : reflected ? LOBE_REFLECTION : LOBE_TRANSMISSION;

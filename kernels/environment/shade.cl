@@ -118,18 +118,18 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
 
 // Adds to the sums of each block's pixels, or begins them anew. sums: [layer][pixel][3].
 __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels,
-                    DeviceBackground texels_size, float radiance, __global const float4* lit_rgb,
-                    __global const float4* reflected_rgb, __global const float4* sky_lights, int sky_light_count,
-                    float power_unit, float4 middle, int size, __global const float* distances,
-                    __global const float* caustics, __global const float* parts_seen, __global float* sums, int width,
-                    int height, uint2 seed, uint pass, int block, int anew, uint first, uint count) {
+                    __global const float4* colours, // reflected_rgb, then lit_rgb
+                    __global const float4* sky_lights, __global const float* distances, __global const float* caustics,
+                    __global const float* parts_seen, __global float* sums, DeviceShading shading) {
   const World world = WORLD;
+  const DeviceBlocks blocks = shading.blocks;
+  const int block = blocks.block, width = shading.width, height = shading.height;
   const uint index = work_item();
-  if (index >= count) return;
-  const Background background = {texels, 0, texels_size};
-  const SkyLights sky_in_lights = {sky_lights, sky_light_count};
-  const Receivers receivers = {middle, size, distances, caustics, parts_seen};
-  const uint item = first + index;
+  if (index >= blocks.count) return;
+  const Background background = {texels, 0, shading.background};
+  const SkyLights sky_in_lights = {sky_lights, shading.sky_light_count};
+  const Receivers receivers = {shading.middle, shading.size, distances, caustics, parts_seen};
+  const uint item = blocks.first + index;
   const int columns = (width + block - 1) / block, column = (int)item % columns * block,
             row = (int)item / columns * block;
   const uint pixel = (uint)(row * width + column);
@@ -139,23 +139,25 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
     const float3 throughput = end.throughput.xyz;
     if (end.throughput.w == (float)END_SKY) {
       const Piece piece = {end.place.xyz, end.geometric.xyz, end.shading.xyz, (float2)(end.geometric.w, end.shading.w)};
-      const float2 numbers = random4(seed, ENDS_OF_PIXEL * pass + i, pixel, 0u, STREAM_PEAKS).xy;
-      layers[LAYER_BACKGROUND] += throughput * (radiance * rgb_of_piece(&world.sky, &background, &piece, numbers));
+      const float2 numbers = random4(blocks.seed, ENDS_OF_PIXEL * blocks.pass + i, pixel, 0u, STREAM_PEAKS).xy;
+      layers[LAYER_BACKGROUND] +=
+          throughput * (shading.radiance * rgb_of_piece(&world.sky, &background, &piece, numbers));
     }
     if (end.throughput.w != (float)END_SURFACE) continue;
     float3 smooth, seen;
     const float3 caustic = caustic_irradiance(&receivers, &end, &seen);
     layers[LAYER_DIRECT] +=
-        throughput * direct_radiance(&world, &end, lit_rgb, reflected_rgb, &sky_in_lights, power_unit, seed, pass,
-                                     pixel * ENDS_OF_PIXEL + i, seen, &smooth);
+        throughput * direct_radiance(&world, &end, colours + shading.lit_first, colours, &sky_in_lights,
+                                     shading.power_unit, blocks.seed, blocks.pass, pixel * ENDS_OF_PIXEL + i, seen,
+                                     &smooth);
     layers[LAYER_SMOOTH] += throughput * smooth;
-    layers[LAYER_CAUSTIC] += throughput * reflected_colour(reflected_rgb, as_int(end.shading.w), caustic) / PI_F;
+    layers[LAYER_CAUSTIC] += throughput * reflected_colour(colours, as_int(end.shading.w), caustic) / PI_F;
   }
   const size_t pixels = (size_t)width * (size_t)height;
   for (int l = 0; l < LAYERS; ++l)
     for (int y = row; y < min(row + block, height); ++y)
       for (int x = column; x < min(column + block, width); ++x) {
         const size_t place = (size_t)l * pixels + (size_t)(y * width + x);
-        vstore3(anew ? layers[l] : vload3(place, sums) + layers[l], place, sums);
+        vstore3(shading.anew ? layers[l] : vload3(place, sums) + layers[l], place, sums);
       }
 }

@@ -3,6 +3,7 @@
 // receivers. Each of the few lights that it is cut into is seen or hidden. The tree is that of the whole scene, because
 // light that the object bends belongs to its caustic.
 #include "kernels/environment/cube.h"
+#include "kernels/environment/render_types.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/tracing/path.h"
 
@@ -10,19 +11,20 @@
 #define OFF_RECEIVER 1e-4f
 
 // facing: from receivers.cl. sky_lights: each light's unit direction, then its flux. parts_seen: [texel][3].
-__kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
+__kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, DeviceTexels of_list,
                       __global const float* distances, __global const float4* facing, __global const float4* sky_lights,
-                      int light_count, __global float* parts_seen) {
+                      __global float* parts_seen) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= count) return;
-  const uint texel = list[first + index];
+  if (index >= of_list.count) return;
+  const uint texel = list[of_list.first + index];
   const float distance = distances[texel];
   if (!(distance < INFINITY)) return;
   const float3 normal = facing[texel].xyz,
-               from = middle.xyz + distance * (cube_texel_direction(texel, size) + OFF_RECEIVER * normal);
+               from = of_list.middle.xyz +
+                      distance * (cube_texel_direction(texel, of_list.size) + OFF_RECEIVER * normal);
   float3 all = (float3)(FLT_MIN), seen = all; // not 0, so that the dark is seen in full
-  for (int l = 0; l < light_count; ++l) {
+  for (int l = 0; l < of_list.light_count; ++l) {
     const float3 direction = sky_lights[2 * l].xyz,
                  irradiance = fmax(dot(normal, direction), 0.0f) * sky_lights[2 * l + 1].xyz;
     all += irradiance;

@@ -19,30 +19,30 @@ static inline float phase_function(float cosine, float together, int rayleigh, f
   return (1.0f - mean * mean) / (4.0f * PI_F * base * sqrt(base));
 }
 
-// Adds the light of each block of pixels. distances: the whole cube. extinction: 1 / unit. sums: [pixel][3].
-__kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres,
-                     float4 object_x, float4 object_y, float4 object_z, __global const float* distances, int size,
-                     float4 middle, DeviceCamera camera, float extinction, float albedo, int rayleigh, float anisotropy,
-                     __global float* sums, uint2 seed, uint pass, int block, int anew, uint first, uint count) {
+// Adds the light of each block of pixels. distances: the whole cube. sums: [pixel][3].
+__kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii,
+                     __global const float* distances, __global float* sums, DeviceCamera camera, DeviceMedium medium) {
   const World world = WORLD;
+  const DeviceBlocks blocks = medium.blocks;
+  const int block = blocks.block;
   const uint index = work_item();
-  if (index >= count) return;
-  const uint item = first + index;
+  if (index >= blocks.count) return;
+  const uint item = blocks.first + index;
   const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,
             row = (int)item / columns * block;
   const uint pixel = (uint)(row * camera.width + column);
-  const float4 random = random4(seed, pass, pixel, 0u, STREAM_SEE);
+  const float4 random = random4(blocks.seed, blocks.pass, pixel, 0u, STREAM_SEE);
   const float2 jitter = block > 1 ? (float2)(0.5f * (float)block) : random.xy;
   EYE_OF(camera);
 #if NEPHROID_LENS
-  stand_on_lens(eye, pixel, jitter, random4(seed, pass, pixel, LENS_BLOCK, STREAM_SEE).xy);
+  stand_on_lens(eye, pixel, jitter, random4(blocks.seed, blocks.pass, pixel, LENS_BLOCK, STREAM_SEE).xy);
 #endif
   Path path = path_from_eye(eye, primary_direction(eye, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
 
   // The part of the path within the largest sphere.
-  const float3 from_middle = path.origin - middle.xyz;
-  const float largest = radii[spheres.count - 1], foot = -dot(from_middle, path.direction);
+  const float3 from_middle = path.origin - medium.middle.xyz;
+  const float largest = radii[medium.spheres.count - 1], foot = -dot(from_middle, path.direction);
   const float3 nearest = from_middle + foot * path.direction;
   const float half2 = largest * largest - dot(nearest, nearest), half_chord = sqrt(fmax(half2, 0.0f));
   const float begin = fmax(foot - half_chord, 0.0f),
@@ -56,21 +56,23 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
       const float distance = length(place);
       if (distance < radii[0]) continue;
       const float3 outwards = place / distance;
-      if (distance > distances[cube_texel(outwards, size)]) continue; // something stands before it
-      const float3 in_object =
-          (float3)(dot(object_x.xyz, outwards), dot(object_y.xyz, outwards), dot(object_z.xyz, outwards));
-      const AirLight light = compiled_air(air, &spheres, in_object, shell_at(radii, spheres.count, distance));
+      if (distance > distances[cube_texel(outwards, medium.size)]) continue; // something stands before it
+      const float3 in_object = (float3)(dot(medium.object.x.xyz, outwards), dot(medium.object.y.xyz, outwards),
+                                        dot(medium.object.z.xyz, outwards));
+      const AirLight light =
+          compiled_air(air, &medium.spheres, in_object, shell_at(radii, medium.spheres.count, distance));
       const float all = luminance_of(light.rgb), length_of_way = length(light.way);
       if (!(all > 0.0f && length_of_way > 0.0f)) continue;
       const float cosine = -dot(light.way, path.direction) / length_of_way, together = fmin(length_of_way / all, 1.0f);
       sum += light.rgb *
-             (phase_function(cosine, together, rayleigh, anisotropy) * exp(-extinction * way) / (distance * distance));
+             (phase_function(cosine, together, medium.rayleigh, medium.anisotropy) * exp(-medium.extinction * way) /
+              (distance * distance));
     }
-    sum *= extinction * albedo * step;
+    sum *= medium.extinction * medium.albedo * step;
   }
   for (int y = row; y < min(row + block, camera.height); ++y)
     for (int x = column; x < min(column + block, camera.width); ++x) {
       const size_t place = (size_t)(y * camera.width + x);
-      vstore3(anew ? sum : vload3(place, sums) + sum, place, sums);
+      vstore3(medium.anew ? sum : vload3(place, sums) + sum, place, sums);
     }
 }

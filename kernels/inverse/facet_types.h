@@ -112,8 +112,25 @@ typedef struct {
   int padding;
 } DeviceWayOut;
 
+// The facets first, ..., first + count - 1 of a sweep's order, which look for better slopes.
+typedef struct {
+  uint2 seed;
+  uint sweep, turn; // turn: of those in which facets claim cells
+  uint first, count;
+  float smoothing; // what unlike neighbours cost
+  int padding;
+} DeviceBatch;
+
+// The rays of a round, number `turn`: those of `count` work items from the first of a row of facets on.
+typedef struct {
+  uint2 seed;
+  uint turn, first_row, count;
+  int padding;
+} DeviceJudgeLaunch;
+
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceFront) == 128 && sizeof(DeviceWayOut) == 48);
+static_assert(sizeof(DeviceFront) == 128 && sizeof(DeviceWayOut) == 48 && sizeof(DeviceJudgeLaunch) == 24);
+static_assert(sizeof(DeviceBatch) == 32);
 static_assert(sizeof(DeviceLayout) == 3632 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
 } // namespace nephroid::shared
 #endif

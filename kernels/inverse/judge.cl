@@ -93,21 +93,21 @@ static inline void add_ray_outcome(global long* outcomes, uint item, int outcome
 // light: [screen][y, x, z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
                     DeviceFront front, __global const float4* parts, __global const float4* lamp_places,
-                    __global const DeviceReceiver* screens, uint2 seed, uint turn, uint first_row, uint count,
-                    __global long* light, __global long* outcomes) {
+                    __global const DeviceReceiver* screens, DeviceJudgeLaunch launch, __global long* light,
+                    __global long* outcomes) {
   const uint item = work_item();
-  if (item >= count) return;
-  const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays,
-             ray = item % rays;
+  if (item >= launch.count) return;
+  const uint along = (uint)front.along, rays = along * along,
+             facet = launch.first_row * (uint)front.columns + item / rays, ray = item % rays;
   const uint column = facet % (uint)front.columns, row = facet / (uint)front.columns;
-  const float4 random = random4(seed, ray, facet, 4u * turn, STREAM_JUDGE);
+  const float4 random = random4(launch.seed, ray, facet, 4u * launch.turn, STREAM_JUDGE);
   const float2 at = (float2)((float)column + ((float)(ray % along) + random.x) / (float)along,
                              (float)row + ((float)(ray / along) + random.y) / (float)along);
   const float3 place =
       (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
   if (front.is_round && length(place.xy / (float2)(front.size_x, front.size_y)) > 0.5f) return;
 #if NEPHROID_SPREAD
-  const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE);
+  const float4 begin = random4(launch.seed, 0u, facet, 4u * launch.turn + 1u, STREAM_JUDGE);
 #endif
   float3 direction = front.direction.xyz;
   float part = 1.0f / (float)rays; // what a ray has of a facet's light
@@ -129,7 +129,7 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   float n = front.n;
   float4 colour = (float4)(1.0f);
 #if NEPHROID_SPREAD
-  const float4 more = random4(seed, 0u, facet, 4u * turn + 2u, STREAM_JUDGE);
+  const float4 more = random4(launch.seed, 0u, facet, 4u * launch.turn + 2u, STREAM_JUDGE);
   if (front.sun_radius > 0.0f)
     direction = beside(direction, front.sun_radius * on_circle(sqrt(even_number(begin.x, ray, 3785032107u)),
                                                                even_number(begin.y, ray, 3335640777u)));

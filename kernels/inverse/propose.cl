@@ -147,16 +147,15 @@ static SEPARATE void try_lattice(const FacetSearch* s, global const float* smear
 
 // Facet order[first + i] gets eight slopes to try: of the rows part, part + PARTS, ... of its lattice the best of every
 // eighth column, then of the cells about each; of the parts' the better one. x is infinite where none was reachable.
-__kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first,
-                      uint count, uint2 seed, uint sweep, __global float2* candidates) {
+__kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global float2* candidates) {
   const uint i = work_item();
-  if (i >= count) return;
-  const uint index = order[first + i];
+  if (i >= batch.count) return;
+  const uint index = order[batch.first + i];
   FacetSearch s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
 #if NEPHROID_SMOOTHS
-  s.pull = smoothing * pull_on(layout, incoming, heights, slopes, index);
+  s.pull = batch.smoothing * pull_on(layout, incoming, heights, slopes, index);
 #endif
-  const Lattice lattice = lattice_of(layout, receivers, &s.facet, seed, sweep, index);
+  const Lattice lattice = lattice_of(layout, receivers, &s.facet, batch.seed, batch.sweep, index);
   const float2 step = lattice.step, fine_step = lattice.fine_step;
   float lowest[8];
   for (int lane = 0; lane < 8; ++lane) lowest[lane] = INFINITY;

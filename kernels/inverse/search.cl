@@ -58,12 +58,12 @@ static SEPARATE FacetSearch search_of(global const DeviceLayout* layout, global 
 }
 
 // Facet order[first + i] looks for found[i], first among its candidates; done[i]: it has none that is better.
-__kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first,
-                   uint count, uint2 seed, uint sweep, __global float2* found, __global int* done) {
+__kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __global float2* found,
+                      __global int* done) {
   const uint i = work_item();
-  if (i >= count) return;
-  const uint index = order[first + i];
-  const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  if (i >= batch.count) return;
+  const uint index = order[batch.first + i];
+  const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, batch.smoothing, index);
   const float2 now = slopes[index];
   const float begin = score(&s, now);
   float2 from = now;
@@ -78,7 +78,7 @@ __kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __glo
     }
   }
   const float last = receivers[layout->receivers - 1].distance + s.facet.height;
-  float2 step = 4.0f * lattice_of(layout, receivers, &s.facet, seed, sweep, index).fine_step;
+  float2 step = 4.0f * lattice_of(layout, receivers, &s.facet, batch.seed, batch.sweep, index).fine_step;
   while (step.x > FINEST * layout->cell_x / last || step.y > FINEST * layout->cell_y / last) {
     step *= 0.5f;
     for (int k = 0; k < STEPS; ++k) {
@@ -120,11 +120,10 @@ static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footpr
 // turn and the earlier the facet in its batch, so that claims of turns before count no more.
 #define KEY(turn, i) ((0xFFFFFu - (turn)) << 12 | (i))
 
-__kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, uint count, __global const float2* found,
-                    __global const int* done, __global uint* claims, uint turn) {
+__kernel void claim(SEARCH_ARGUMENTS, __global const float2* found, __global const int* done, __global uint* claims) {
   const uint i = work_item();
-  if (i >= count || done[i]) return;
-  const uint index = order[first + i], key = KEY(turn, i);
+  if (i >= batch.count || done[i]) return;
+  const uint index = order[batch.first + i], key = KEY(batch.turn, i);
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
   for (int j = 0; j < layout->receivers; ++j) {
@@ -163,12 +162,11 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
 }
 
 // Facets that hold all that they claimed have their cells to themselves; they take what they found if still better.
-__kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order,
-                   uint first, uint count, __global const float2* found, __global int* done,
-                   __global const uint* claims, uint turn) {
+__kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const float2* found,
+                   __global int* done, __global const uint* claims) {
   const uint i = work_item();
-  if (i >= count || done[i]) return;
-  const uint index = order[first + i], key = KEY(turn, i);
+  if (i >= batch.count || done[i]) return;
+  const uint index = order[batch.first + i], key = KEY(batch.turn, i);
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
   for (int j = 0; j < layout->receivers; ++j) {
@@ -186,7 +184,7 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
     if (facets[neighbour(layout, index, side)] != key) return;
 #endif
   done[i] = 1;
-  const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  const FacetSearch s = search_of(layout, receivers, incoming, heights, slopes, lack, batch.smoothing, index);
   if (!(score(&s, found[i]) < score(&s, slopes[index]))) return;
   for (int j = 0; j < layout->receivers; ++j) {
     Beams room, then_room;

@@ -17,9 +17,11 @@
 // At most this many are then tried across and down about a candidate: the cells that a step of the lattice passes over.
 #define MOST_FINE 8
 
+// order: the facets of a sweep, one after the other.
 #define SEARCH_ARGUMENTS                                                                                               \
   __global const DeviceLayout* layout, global const DeviceReceiver *receivers, global const DeviceIncoming *incoming,  \
-      global const float *heights, global float2 *slopes, global float *lack, float smoothing
+      global const float *heights, global float2 *slopes, global float *lack, global const uint *order,                \
+      DeviceBatch batch
 
 typedef struct {
   global const DeviceLayout* layout;

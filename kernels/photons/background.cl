@@ -6,6 +6,7 @@
 #define NEPHROID_SKY_IS_LIGHT 1
 #endif
 #define NEPHROID_PLACE_DIFFERENTIALS NEPHROID_SKY_IS_LIGHT
+#include "kernels/photons/launch_types.h"
 #include "kernels/tracing/piece.h"
 #include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"
@@ -76,25 +77,23 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
   return radiance_scale * shown_after(world, background, rgb, &path.losses, band);
 }
 
-// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
+// samples: [count], each a pixel and the sample's number there.
 __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz,
                          DeviceBackground size,
-                         __global const int* wavelengths,    // 0, 1, ..., 400
                          __global const float* spectrum_cdf, // [401]: chances of a path through glass
                          volatile __global long* film,
                          volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                         DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
-                         float film_scale, float film_limit) {
+                         DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
   const World world = WORLD;
   const Background background = {texels, primary_xyz, size};
   const uint index = work_item();
-  if (index >= count) return;
+  if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
+  SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
   float3 direction;
   EYE_OF(camera);
-  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_BACKGROUND, &direction);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_BACKGROUND, &direction);
 
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
@@ -106,11 +105,13 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
     xyz = background_xyz(&background, background_rgb(&background, direction), WAVELENGTH_COUNT);
   else
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
-      const float place = golden_place(seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
-      const Band band = wavelength_of_cluster(0, wavelengths, spectrum_cdf, WAVELENGTH_COUNT, place);
-      xyz += seen_through(&world, &background, path_from_eye(eye, outwards), first, &band, jitter.xy, seed, frame,
-                          i, pixel);
+      const float place =
+          golden_place(launch.seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
+      const int wavelength = choose(spectrum_cdf, WAVELENGTH_COUNT, place);
+      const Band band = {0, wavelength, 1.0f / (spectrum_cdf[wavelength] - chance_before(spectrum_cdf, wavelength))};
+      xyz += seen_through(&world, &background, path_from_eye(eye, outwards), first, &band, jitter.xy, launch.seed,
+                          frame, i, pixel);
     }
-  add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
-             jitter.z);
+  add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
+             limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);
 }

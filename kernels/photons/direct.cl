@@ -2,6 +2,7 @@
 // The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, which each light
 // reaches unbent. Glass and mirrors block those shadow rays: light that passes them belongs to the caustic layer.
 #define NEPHROID_HIGHLIGHTS
+#include "kernels/photons/launch_types.h"
 #include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"
 
@@ -62,21 +63,20 @@ IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* ban
                                       pixel);
 }
 
-// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
+// samples: [count], each a pixel and the sample's number there.
 __kernel void direct(WORLD_ARGUMENTS,
                      volatile __global long* film,
                      volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                     DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
-                     float film_scale, float film_limit) {
+                     DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= count) return;
+  if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
+  SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
   float3 direction;
   EYE_OF(camera);
-  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_CAMERA, &direction);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_CAMERA, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
@@ -92,15 +92,16 @@ __kernel void direct(WORLD_ARGUMENTS,
     Band band = whole_cluster(-1);
     SET_ASIDE float probability = 1.0f;
     if (bent) {
-      const int cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, frame, number,
+      const int cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, launch.seed, frame, number,
                                          PATHS_THROUGH_GLASS,
                                          pixel, STREAM_CAMERA_CLUSTER);
       probability = (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
       band =
-          choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
+          choose_band(&world, scene.light_count, cluster,
+                      random4(launch.seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
     }
-    xyz += follow(&world, way, first, &band, seed, sample, pixel) / probability;
+    xyz += follow(&world, way, first, &band, launch.seed, sample, pixel) / probability;
   }
-  add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
-             jitter.z);
+  add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
+             limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);
 }

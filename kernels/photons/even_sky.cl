@@ -2,6 +2,7 @@
 // The part of the layer "caustic" that is the even light of the environment (sky.h). Paths from the eye go through
 // glass and mirrors to the first diffuse surface, and on through glass and mirrors to the sky. Light that comes from
 // everywhere is found more surely from where it falls than from where it starts.
+#include "kernels/photons/launch_types.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/eye_walk.h"
 
@@ -46,21 +47,20 @@ IN_PLACE float3 even_irradiance(const World* world, __global const DeviceLight* 
   return light->radiometric * weight * even_radiance(&world->sky, path->direction);
 }
 
-// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
+// samples: [count], each a pixel and the sample's number there.
 __kernel void even_sky(WORLD_ARGUMENTS, int light_index,
                        volatile __global long* film,
                        volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                       DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
-                       float film_scale, float film_limit) {
+                       DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= count) return;
+  if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_EVEN_SKY);
+  SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_EVEN_SKY);
   float3 direction;
   EYE_OF(camera);
-  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_EVEN_SKY, &direction);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_EVEN_SKY, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
@@ -68,21 +68,24 @@ __kernel void even_sky(WORLD_ARGUMENTS, int light_index,
   for (uint i = 0; i < BOUNCES; ++i) {
     const uint sample = frame * BOUNCES + i;
     const int cluster =
-        choose_cluster(world.cluster_cdf, scene.cluster_count, seed, frame, i, BOUNCES, pixel, STREAM_EVEN_SKY_CLUSTER);
+        choose_cluster(world.cluster_cdf, scene.cluster_count, launch.seed, frame, i, BOUNCES, pixel,
+                       STREAM_EVEN_SKY_CLUSTER);
     const Band band =
-        choose_band(&world, light_index, cluster, random4(seed, sample, pixel, 0u, STREAM_EVEN_SKY_WAVELENGTH).x);
+        choose_band(&world, light_index, cluster,
+                    random4(launch.seed, sample, pixel, 0u, STREAM_EVEN_SKY_WAVELENGTH).x);
     Path way = path_from_eye(eye, outwards);
     Hit end = first;
-    Visitor eye = eye_visitor(&band, seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY);
+    Visitor eye = eye_visitor(&band, launch.seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY);
     Interaction at;
     const float radiance_scale = reach_base(&world, &eye, &way, &end, &at);
     if (radiance_scale == 0.0f) continue;
     const float3 irradiance =
-        even_irradiance(&world, world.lights + light_index, &way, &at.surface, at.triangle, &band, seed, sample, pixel);
+        even_irradiance(&world, world.lights + light_index, &way, &at.surface, at.triangle, &band, launch.seed, sample,
+                        pixel);
     const Source sky = {light_index, irradiance};
     xyz += carried_light(&world, &way.losses, sky, &band, reflector_at(&world, &at.surface, at.triangle)).xyz *
            (radiance_scale / (PI_F * (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)BOUNCES));
   }
-  add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
-             jitter.z);
+  add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
+             limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);
 }

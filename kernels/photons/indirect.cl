@@ -4,6 +4,7 @@
 // that lamps and the environment send to it. indirect_photons.cl brings the light that glass or a mirror sends to its
 // first diffuse surface, but for even light of the environment (sky.h), at which paths end here. It also brings that of
 // narrow spots, where the pixel shows no glass and no mirror.
+#include "kernels/photons/launch_types.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
@@ -148,21 +149,20 @@ IN_PLACE float3 follow(const World* world, Visitor* eye, Path path, Hit hit) {
   return eye->xyz;
 }
 
-// samples: [count], each a pixel and the sample's number there. enough: as in limit_of_sample.
+// samples: [count], each a pixel and the sample's number there.
 __kernel void indirect(WORLD_ARGUMENTS,
                        volatile __global long* film,
                        volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                       DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
-                       float film_scale, float film_limit) {
+                       DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= count) return;
+  if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_INDIRECT);
+  SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_INDIRECT);
   float3 direction;
   EYE_OF(camera);
-  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, seed, frame, STREAM_INDIRECT, &direction);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_INDIRECT, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   const bool unbent = is_unbent(&world, &camera, &hit);
@@ -171,13 +171,13 @@ __kernel void indirect(WORLD_ARGUMENTS,
   SET_ASIDE Hit first = hit;
   for (uint p = 0; p < paths; ++p) {
     Visitor visitor;
-    visitor.seed = seed;
+    visitor.seed = launch.seed;
     visitor.sample = frame * paths + p;
     visitor.paths = paths;
     visitor.pixel = pixel;
     for (uint i = 0; i < BANDS; ++i) {
       // The bands of each path begin with another one.
-      const float place = golden_place(seed, frame, (i + p) % BANDS, BANDS, pixel, STREAM_INDIRECT_BAND);
+      const float place = golden_place(launch.seed, frame, (i + p) % BANDS, BANDS, pixel, STREAM_INDIRECT_BAND);
       const int cluster = choose(world.cluster_cdf + 1, scene.cluster_count, place);
       const float chance = world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster];
       visitor.bands[i] = choose_band(&world, scene.light_count, cluster, (place - world.cluster_cdf[cluster]) / chance);
@@ -186,6 +186,6 @@ __kernel void indirect(WORLD_ARGUMENTS,
     }
     xyz += follow(&world, &visitor, path_from_eye(eye, outwards), first) / (float)(paths * BANDS);
   }
-  add_sample(film, energy, &camera, pixel, frame, xyz, film_scale, limit_of_sample(frame, enough, film_limit),
-             jitter.z);
+  add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
+             limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);
 }

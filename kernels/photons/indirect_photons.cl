@@ -3,6 +3,7 @@
 // wavelength each leave the lights, towards glass and mirrors or all over the spot's cone. They are bent, and scattered
 // by diffuse surfaces. From the second of these on, each adds to the pixel that sees it. Only absorption changes its
 // power: reflectances decide by chance. A map takes photons for what glass and mirrors show.
+#include "kernels/photons/launch_types.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
@@ -177,32 +178,32 @@ static inline void choose_wavelength(const World* world, __global const float* c
   photon->weight = band.weight;
 }
 
-// Follows `count` photons offset, offset + stride, ... of a pass. emitters: one for each light that has photons.
+// emitters: one for each light that has photons.
 __kernel void indirect_photons(WORLD_ARGUMENTS,
-                               __global const DeviceEmitter* emitters, int emitter_count,
+                               __global const DeviceEmitter* emitters,
                                __global const float* spectrum_cdf, // [light][member of all clusters]: chances
                                volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                                __global StoredPhoton* stored, // [photon], with NEPHROID_STORE
-                               int object_count, DeviceCamera camera, uint2 seed, uint iteration, uint offset,
-                               uint stride, uint count, float film_scale, float energy_scale, float stored_scale) {
+                               DeviceCamera camera, DevicePhotonLaunch launch) {
   const World world = WORLD;
   const int members = world.tables.cluster_first[scene.cluster_count];
-  Receiver receiver = {film_of_iteration(film, iteration, camera.width * camera.height), film_scale, camera,
-                       stored, stored_scale, object_count};
+  Receiver receiver = {film_of_iteration(film, launch.iteration, camera.width * camera.height), launch.film_scale,
+                       camera, stored, launch.stored_scale, launch.object_count};
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
-    if (item >= count) break;
-    const uint number = offset + stride * item;
+    if (item >= launch.count) break;
+    const uint number = launch.offset + launch.stride * item;
 #if NEPHROID_STORE
     receiver.slot = stored + number;
     receiver.slot->group = NO_PHOTON;
 #endif
-    const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
+    const DeviceEmitter emitter = emitters[emitter_of(emitters, launch.emitter_count, number)];
     __global const DeviceLight* light = world.lights + emitter.light;
-    const float4 random = random4(seed, iteration, number, 0u, STREAM_INDIRECT_PHOTONS);
-    const float2 place =
-        has_places(light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy : (float2)(0.0f);
+    const float4 random = random4(launch.seed, launch.iteration, number, 0u, STREAM_INDIRECT_PHOTONS);
+    const float2 place = has_places(light)
+                             ? random4(launch.seed, launch.iteration, number, 1u, STREAM_INDIRECT_PHOTONS).xy
+                             : (float2)(0.0f);
     const bool narrow = is_narrow(light);
     const Emission emission =
         narrow ? emit_in_cone(light, emitter.light, random) : emit(&world, emitter.light, random, place);
@@ -213,14 +214,15 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     photon.watts = emission.watts / (float)emitter.photon_count;
     photon.light = emission.source.light;
     photon.rgb = emission.source.rgb;
-    photon.seed = seed;
-    photon.iteration = iteration;
+    photon.seed = launch.seed;
+    photon.iteration = launch.iteration;
     photon.number = number;
     photon.counts = narrow;
     photon.met_diffuse = photon.met_glass = photon.is_absorbed = false;
     photon.met = 0u;
     photon.refused = 0;
-    choose_wavelength(&world, spectrum_cdf + emitter.light * members, random.w, seed, iteration, &photon);
+    choose_wavelength(&world, spectrum_cdf + emitter.light * members, random.w, launch.seed, launch.iteration,
+                      &photon);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
                  light->inside,    no_losses(),        emission.behind};
     Hit hit;
@@ -237,7 +239,7 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     add_outcome(outcomes, OUTCOME_REFUSED, photon.refused);
     const Band band = visitor_band(&photon);
     count_photon(outcomes, outcome, last + 1,
-                 photon.watts * band_share(&world, emission.source, &band, 0.0f) * energy_scale,
+                 photon.watts * band_share(&world, emission.source, &band, 0.0f) * launch.energy_scale,
                  wavelength_left(&world.tables, &path.losses, photon.wavelength));
   }
   add_outcomes(energy, outcomes);

@@ -2,6 +2,7 @@
 // The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass
 // and mirrors, and are splatted into the pixel that sees the diffuse surface they reach.
 #include "kernels/photons/guide.h"
+#include "kernels/photons/launch_types.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/store.h"
@@ -28,30 +29,27 @@ static inline long squared(float3 xyz, float scale) {
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
 }
 
-// Follows `count` photons offset, offset + stride, ... of the batch `iteration` and those that follow it. map_pass is
-// the pass of the maps. energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
+// energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                       volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
                       volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
                       __global const float* guide,                                  // ... [light][GUIDE_FLOATS]
-                      float unseen_weight, // ... weight of a stored photon that no pixel sees directly
-                      __global StoredPhoton* stored,
-                      uint stored_first, // [photon], with NEPHROID_STORE; where the batch begins
-                      uint photons_per_batch, int emitter_count, int object_count, DeviceCamera camera, uint2 seed,
-                      uint iteration, uint map_pass, uint first_iteration, uint offset, uint stride, uint count,
-                      float film_scale, float energy_scale, float stored_scale) {
+                      __global StoredPhoton* stored,                                // with NEPHROID_STORE: [photon]
+                      DeviceCamera camera, DevicePhotonLaunch launch) {
   const World world = WORLD;
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
-    if (number >= count) break;
-    const uint place = offset + stride * neighbours_follow(number, count);
-    const uint batch = iteration + place / photons_per_batch, photon = place % photons_per_batch;
+    if (number >= launch.count) break;
+    const uint place = launch.offset + launch.stride * neighbours_follow(number, launch.count);
+    const uint batch = launch.iteration + place / launch.photons_per_batch,
+               photon = place % launch.photons_per_batch;
 #if NEPHROID_STORE
-    stored[stored_first + place].group = NO_PHOTON;
+    stored[launch.stored_first + place].group = NO_PHOTON;
 #endif
-    PhotonStart start = photon_start(emitters, emitter_count, world.lights, seed, batch, first_iteration, photon);
+    PhotonStart start = photon_start(emitters, launch.emitter_count, world.lights, launch.seed, batch,
+                                     launch.first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
 #if NEPHROID_MOMENTS
     const Guided guided = guide_numbers(guide + emitter.light * GUIDE_FLOATS, &start.emission);
@@ -64,7 +62,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
     const int part = part_of_cluster(start.wavelength);
-    const Band band = band_of_pass(&world, emitter.cluster, part, seed, map_pass);
+    const Band band = band_of_pass(&world, emitter.cluster, part, launch.seed, launch.map_pass);
 #else
     const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
@@ -74,19 +72,19 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
         emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
                  world.lights[emitter.light].inside,    no_losses(),        emission.behind};
-    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, batch, photon);
+    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, launch.seed, batch, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
-      if (!store_photon(stored + stored_first + place, &end.surface, path.direction,
-                        band_number(emitter.cluster, part), object_count, xyz, stored_scale, dither))
+      if (!store_photon(stored + launch.stored_first + place, &end.surface, path.direction,
+                        band_number(emitter.cluster, part), launch.object_count, xyz, launch.stored_scale, dither))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
 #endif
     if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
       const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
 #if NEPHROID_LENS
-      const DeviceCamera seen_from = through_lens(&camera, random4(seed, batch, photon, 0u, STREAM_LENS).xy);
+      const DeviceCamera seen_from = through_lens(&camera, random4(launch.seed, batch, photon, 0u, STREAM_LENS).xy);
 #else
 #define seen_from camera
 #endif
@@ -98,23 +96,23 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
         const float turn = dither + 0.61803399f * (float)i; // each strand has its own
-        if (!film_add_dithered(sums, splat.pixel, xyz, film_scale, FILM_LIMIT, turn - floor(turn)))
+        if (!film_add_dithered(sums, splat.pixel, xyz, launch.film_scale, FILM_LIMIT, turn - floor(turn)))
           add_outcome(outcomes, OUTCOME_REFUSED, 1);
 #if NEPHROID_MOMENTS
-        moment += squared(xyz, film_scale);
+        moment += squared(xyz, launch.film_scale);
 #endif
       }
     }
 
 #if NEPHROID_MOMENTS
     if (NEPHROID_STORE && end.outcome == OUTCOME_DEPOSITED && moment == 0)
-      moment = squared(end.xyz * (watts * unseen_weight / PI_F), film_scale);
+      moment = squared(end.xyz * (watts * launch.unseen_weight / PI_F), launch.film_scale);
     if (moment != 0) {
       add_exactly(moments + start.emitter, moment);
       add_exactly(guide_moments + emitter.light * GUIDE_CELLS + guided.cell, moment);
     }
 #endif
-    count_photon(outcomes, end.outcome, end.segments, watts * share * energy_scale, end.left);
+    count_photon(outcomes, end.outcome, end.segments, watts * share * launch.energy_scale, end.left);
   }
   add_outcomes(energy, outcomes);
 }

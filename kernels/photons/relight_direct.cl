@@ -2,6 +2,7 @@
 // The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all
 // wavelengths of a lamp take the same path and share one layer. Through glass and mirrors each cluster of each lamp has
 // its own. Before the first pass a survey finds the reflectors that each pixel sees.
+#include "kernels/photons/launch_types.h"
 #include "kernels/photons/layers.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/eye_walk.h"
@@ -41,14 +42,14 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
 __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
                      __global const float* luminance_share, // [cluster]: for a flat spectrum
                      LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy,
-                     DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
-                     float film_limit) {
+                     DeviceCamera camera, DeviceRowLaunch launch) {
   const World world = WORLD;
   const int index = (int)work_item();
-  if (index >= row_count * camera.width) return;
-  const LayerFilm unbent = LAYER_FILM(unbent, frame), bent = LAYER_FILM(bent, frame);
-  const int column = index % camera.width, row = first_row + index / camera.width, pixel = row * camera.width + column;
-  const float4 jitter = random4(seed, frame, (uint)pixel, 0u, STREAM_CAMERA);
+  if (index >= launch.row_count * camera.width) return;
+  const LayerFilm unbent = LAYER_FILM(unbent, launch.frame), bent = LAYER_FILM(bent, launch.frame);
+  const int column = index % camera.width, row = launch.first_row + index / camera.width,
+            pixel = row * camera.width + column;
+  const float4 jitter = random4(launch.seed, launch.frame, (uint)pixel, 0u, STREAM_CAMERA);
   const float3 direction = primary_direction(&camera, column, row, jitter.xy);
   Path first_way = path_from_eye(&camera, direction);
   const Hit first = next_hit(&world, &first_way);
@@ -58,17 +59,18 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
   const int all = scene.cluster_count;
   long refused = 0;
   for (uint i = 0; i < (straight ? 1u : PATHS_THROUGH_GLASS); ++i) {
-    const uint sample = straight ? frame : frame * PATHS_THROUGH_GLASS + i;
+    const uint sample = straight ? launch.frame : launch.frame * PATHS_THROUGH_GLASS + i;
     Band band = whole_cluster(-1);
     float weight = 1.0f;
     if (!straight) {
       band.cluster =
-          choose_cluster(cluster_cdf, all, seed, frame, i, PATHS_THROUGH_GLASS, (uint)pixel, STREAM_CAMERA_CLUSTER);
+          choose_cluster(cluster_cdf, all, launch.seed, launch.frame, i, PATHS_THROUGH_GLASS, (uint)pixel,
+                         STREAM_CAMERA_CLUSTER);
       weight = 1.0f / ((cluster_cdf[band.cluster + 1] - cluster_cdf[band.cluster]) * (float)PATHS_THROUGH_GLASS);
     }
     Path path = first_way;
     Hit hit = first;
-    Visitor eye = eye_visitor(&band, seed, sample, 0u, (uint)pixel, STREAM_CAMERA);
+    Visitor eye = eye_visitor(&band, launch.seed, sample, 0u, (uint)pixel, STREAM_CAMERA);
     Interaction at;
     weight *= reach_base(&world, &eye, &path, &hit, &at);
     if (weight == 0.0f) continue;
@@ -76,20 +78,20 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     const int reflector = at.material.reflector;
     for (int l = 0; l < scene.light_count; ++l) {
       const float radiance = weight *
-                             irradiance_of(&world, l, &path, &at.surface, at.triangle, seed, sample,
+                             irradiance_of(&world, l, &path, &at.surface, at.triangle, launch.seed, sample,
                                            straight ? 1u : PATHS_THROUGH_GLASS, (uint)pixel) /
                              PI_F;
       if (radiance == 0.0f) continue;
       bool taken;
       if (straight)
-        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit,
+        taken = layer_add(&unbent, pixel, reflector, l, radiance, launch.film_scale, launch.film_limit,
                           mean_reflectance + all * scene.reflector_count, jitter.z);
       else if (has_cells(&bent, pixel))
-        taken = layer_add(&bent, pixel, reflector, l * all + band.cluster, radiance, film_scale, film_limit,
-                          mean_reflectance + band.cluster * scene.reflector_count, jitter.z);
+        taken = layer_add(&bent, pixel, reflector, l * all + band.cluster, radiance, launch.film_scale,
+                          launch.film_limit, mean_reflectance + band.cluster * scene.reflector_count, jitter.z);
       else // the survey missed a sliver of glass here, whose light counts as unbent
-        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale,
-                          film_limit, mean_reflectance + all * scene.reflector_count, jitter.z);
+        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], launch.film_scale,
+                          launch.film_limit, mean_reflectance + all * scene.reflector_count, jitter.z);
       if (!taken) ++refused;
     }
   }

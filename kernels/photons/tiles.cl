@@ -4,6 +4,7 @@
 // place of random points make footprints tile).
 #define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/photons/footprint_splat.h"
+#include "kernels/photons/launch_types.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
@@ -295,18 +296,17 @@ static inline void start_branch(Branch* branch, const Emission* emission, Media 
   branch->met = branch->is_coarse = false;
 }
 
-// Follows the points first .. first + count - 1 of a round. energy: as of photons.cl.
-__kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices,
+// Follows the points launch.offset, ..., offset + count - 1 of a round. energy: as of photons.cl.
+__kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int lattice_count,
                     __global const PixelView* views,
                     volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                    int lattice_count, DeviceCamera camera, uint2 seed, uint iteration, uint first, uint count,
-                    float film_scale, float energy_scale) {
+                    DeviceCamera camera, DevicePhotonLaunch launch) {
   const World world = WORLD;
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
-    if (number >= count) break;
-    const uint photon = first + number;
+    if (number >= launch.count) break;
+    const uint photon = launch.offset + number;
     const DeviceLattice lattice =
         lattices[last_from(&lattices->first_photon, sizeof(DeviceLattice) / sizeof(uint), lattice_count, photon)];
     const uint in_lattice = photon - lattice.first_photon;
@@ -329,13 +329,14 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices,
                                   : lattice.share,
                 watts = emission.watts / lattice.photons;
     const TileFilm to_film = {views,
-                              film_of_iteration(film, lattice.film_half, camera.width * camera.height), film_scale};
+                              film_of_iteration(film, lattice.film_half, camera.width * camera.height),
+                              launch.film_scale};
     tile.band = band;
     tile.waiting = tile.segments = 0;
     tile.cell = lattice.step;
     tile.point = point;
-    tile.seed = seed;
-    tile.iteration = iteration;
+    tile.seed = launch.seed;
+    tile.iteration = launch.iteration;
     tile.photon = photon;
     start_branch(&tile.branch, &emission, world.lights[lattice.light].inside);
     for (;;) {
@@ -367,7 +368,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices,
             !splat_branch(&world, &camera, &lattice, &end, branch, source, &band, carried_watts, &to_film, photon))
           add_outcome(outcomes, OUTCOME_REFUSED, 1);
         count_photon(outcomes, end.outcome, 0,
-                     carried_watts * power_share * (lattice.high - lattice.low) * energy_scale, end.left);
+                     carried_watts * power_share * (lattice.high - lattice.low) * launch.energy_scale, end.left);
       }
       if (tile.waiting == 0) break;
       *branch = tile.pending[--tile.waiting];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths from the eye through glass and mirrors to the diffuse surface whose photons they gather (gather.cl).
+#include "kernels/photons/launch_types.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
 #include "kernels/tracing/work_item.h"
@@ -55,39 +56,38 @@ COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, bool refl
   return point;
 }
 
-// points: [count], for pixels[first] and those after it; position.w is the film's dither. cluster: that of all paths;
-// or -1: each path that meets glass or a mirror first takes one by its chance in cluster_cdf and counts for so much
-// more; so does what a coat reflects, and the others see nothing here. sample: the number of earlier paths of a pixel;
-// place: of those in this half of the film. Each path counts 1 / path_count of a pass.
-__kernel void view(WORLD_ARGUMENTS, __global VisiblePoint* points,
-                   DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
-                   int object_count, __global const uint* pixels, uint first, uint count) {
+// points: [count]; position.w is the film's dither. Where launch.cluster is -1, each path that meets glass or a mirror
+// first takes a cluster by its chance in cluster_cdf and counts for so much more; so does what a coat reflects, and the
+// others see nothing here.
+__kernel void view(WORLD_ARGUMENTS, __global VisiblePoint* points, DeviceCamera camera, __global const uint* pixels,
+                   DeviceViewLaunch launch) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= count) return;
-  const uint pixel = pixels[first + index];
+  if (index >= launch.count) return;
+  const uint pixel = pixels[launch.first + index];
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
-  const float4 jitter = random4(seed, sample, pixel, 0u, STREAM_VIEW);
+  const float4 jitter = random4(launch.seed, launch.sample, pixel, 0u, STREAM_VIEW);
   EYE_OF(camera);
-  begin_on_lens(eye, pixel, jitter.xy, seed, sample, 0u, STREAM_VIEW);
+  begin_on_lens(eye, pixel, jitter.xy, launch.seed, launch.sample, 0u, STREAM_VIEW);
   Path path = path_from_eye(eye, primary_direction(eye, column, row, jitter.xy));
   const Hit hit = next_hit(&world, &path);
   VisiblePoint point = nothing_visible();
   if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
     const DeviceMaterial met = material_of_hit(&world, &hit);
     const bool bent = !is_only_matt(&met);
-    float weight = 1.0f / (float)path_count;
+    int cluster = launch.cluster;
+    float weight = 1.0f / (float)launch.path_count;
     const bool reflected = cluster < 0 && has_coat(&met);
     if (cluster < 0 && bent) {
-      cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel,
-                               STREAM_VIEW_CLUSTER);
+      cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, launch.seed, launch.pass, launch.place, 0u,
+                               pixel, STREAM_VIEW_CLUSTER);
       weight /= (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]);
     }
     if (cluster >= 0) {
       const int part = part_of_cluster(jitter.w);
-      const Band band = band_of_pass(&world, cluster, part, seed, pass);
-      point = see(&world, path, hit, reflected, &band, part, weight * (float)NEPHROID_PASS_BANDS, object_count, seed,
-                  sample, pixel);
+      const Band band = band_of_pass(&world, cluster, part, launch.seed, launch.pass);
+      point = see(&world, path, hit, reflected, &band, part, weight * (float)NEPHROID_PASS_BANDS,
+                  launch.object_count, launch.seed, launch.sample, pixel);
     }
   }
   point.position.w = jitter.z;

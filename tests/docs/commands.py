@@ -11,7 +11,7 @@ what an earlier one wrote. What is cut, and nothing else (CUT and cut_short):
 - `run` has one pass, a picture of 64 x 64 pixels, no reference, few photons, few facets and a small bake, and of an
   animation two frames. Where the command itself has at most 2 passes it keeps them. Before that, `plan` is asked about
   the same preset and settings as they stand, at full size.
-- `export` renders its picture of light for a second.
+- `export` renders its pictures of light with 64 pixels for a second.
 - `check` is run by tests of its own; here its arguments are checked.
 - a window opens on a virtual display, with 3 frames and a screenshot. Where there is no Xvfb, it is not run.
 
@@ -54,12 +54,18 @@ def value_of(words, name):
     return (words.index(name), words[words.index(name) + 1]) if name in words[:-1] else None
 
 
+def without(words, options):
+    """The words without these options and their values."""
+    rest = list(words)
+    for option in options:
+        if found := value_of(rest, option):
+            del rest[found[0]:found[0] + 2]
+    return rest
+
+
 def cut_short(words, engine):
     """A `run` as the test does it."""
-    short = list(words)
-    for limit in ("--seconds", "--until-error", "--pictures-at"):
-        if found := value_of(short, limit):
-            del short[found[0]:found[0] + 2]
+    short = without(words, ("--seconds", "--until-error", "--pictures-at"))
     passes = value_of(short, "--passes")
     if passes and int(passes[1]) > MOST_PASSES:
         short[passes[0] + 1] = "1"
@@ -218,9 +224,8 @@ class Runner:
             self.counts["checked for its arguments only"] += 1
         elif command.words and (command.words[0] in self.verbs or command.words[0] in ("--help", "--version")):
             self.counts["run"] += 1
-            if command.words[0] == "export" and (found := value_of(command.words, "--seconds")):
-                command.words[found[0] + 1] = "1"
-            self.run(command, folder, command.words)
+            cut = ["--seconds", "1", "--size", "64"] if command.words[0] == "export" else []
+            self.run(command, folder, without(command.words, cut[::2]) + cut)
         else:
             self.run_window(command, folder)
 

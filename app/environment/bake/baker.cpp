@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/hashed_bytes.h"
 #include "environment/colours.h"
+#include "kernels/environment/render_types.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>
@@ -89,19 +90,17 @@ void Baker::advance() {
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
   photons_a_slice_.timed(count, [&] {
     if (rank >= at_once()) return;
-    world_.run_photons(kernel_, count,
-                       {{"light_rgb", light_rgb_},
-                        {"radii", radii_},
-                        {"film", film_},
-                        {"energy", energy_},
-                        {"sphere_count", static_cast<int>(task_.radii.size())},
-                        {"side", task_.resolution},
-                        {"direction", tracing::to_float4(task_.directions[number])},
-                        {"number", static_cast<std::uint32_t>(number)},
-                        {"seed", world_.seed},
-                        {"first", sent_},
-                        {"count", count},
-                        {"scale", scale}});
+    const shared::DeviceBakeLaunch launch{tracing::to_float4(task_.directions[number]),
+                                          world_.seed,
+                                          static_cast<std::uint32_t>(number),
+                                          sent_,
+                                          count,
+                                          static_cast<int>(task_.radii.size()),
+                                          task_.resolution,
+                                          scale};
+    world_.run_photons(
+        kernel_, count,
+        {{"light_rgb", light_rgb_}, {"radii", radii_}, {"film", film_}, {"energy", energy_}, {"launch", launch}});
   });
   sent_ += count;
   if (sent_ == task_.photons) finish_directions();

@@ -67,9 +67,7 @@ void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dm
       sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
     if (!eights.empty()) sets_.write(eights);
     used_eights_ = static_cast<int>(eights.size());
-    air_.object_x = tracing::to_float4(rotation[0]);
-    air_.object_y = tracing::to_float4(rotation[1]);
-    air_.object_z = tracing::to_float4(rotation[2]);
+    air_.object = {tracing::to_float4(rotation[0]), tracing::to_float4(rotation[1]), tracing::to_float4(rotation[2])};
   });
 }
 
@@ -79,22 +77,16 @@ void Caustics::compile_air(int side) {
   if (air_.light.size() < 6 * items) air_.light = compute::Buffer<float>(context_, "light in the air", 6 * items);
   const auto count = static_cast<std::uint32_t>(items);
   compile_air_.run(count, group, arguments(),
-                   {{"object_x", air_.object_x},
-                    {"object_y", air_.object_y},
-                    {"object_z", air_.object_z},
-                    {"side", side},
-                    {"count", count},
-                    {"air", air_.light}});
+                   {{"object", air_.object}, {"side", side}, {"count", count}, {"air", air_.light}});
   context_.finish();
 }
 
 void Caustics::cast(const CastTexels& texels) {
   seconds_ += tracing::seconds_of([&] {
+    const shared::DeviceTexels of_list{{}, texels.first, texels.count, texels.size, 0};
     cast_.run(texels.count, group, arguments(),
               {{"list", *texels.list},
-               {"first", texels.first},
-               {"count", texels.count},
-               {"size", texels.size},
+               {"of_list", of_list},
                {"distances", *texels.distances},
                {"normals", *texels.normals},
                {"caustics", *texels.caustics}});

@@ -46,7 +46,7 @@ public:
   struct Air {
     compute::Buffer<float> light; ///< 6 a texel
     shared::DeviceSpheres spheres{};
-    shared::float4 object_x{}, object_y{}, object_z{}; ///< the object's axes in the scene
+    shared::DeviceAxes object{};
   };
   const Air& air() const { return air_; }
   const compute::Buffer<float>& radii() const { return radii_; }

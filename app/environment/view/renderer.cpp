@@ -21,6 +21,14 @@ std::size_t ends_of_pixel(const RenderTask& task) { return task.coloured ? 4 : 2
 int fine_side(int side) { return std::max(side / 2, 8); }
 int coarse_side(int side) { return std::max(side / 4, 8); }
 
+/// What shade.cl has of surfaces: reflected_primaries, then lit_colours.
+std::vector<shared::float4> colours_of(const tracing::WavelengthTables& tables) {
+  std::vector<shared::float4> all = reflected_primaries(tables);
+  const std::vector<shared::float4> lit = lit_colours(tables);
+  all.insert(all.end(), lit.begin(), lit.end());
+  return all;
+}
+
 } // namespace
 
 std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task) {
@@ -40,8 +48,8 @@ Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const mpi:
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
       world_(tracing::make_world(context, *task_.scene, *task_.bvh, task_.tables, task_.defines, seed)),
       channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),
-      lit_rgb_(compute::Buffer(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
-      reflected_rgb_(compute::Buffer(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
+      lit_first_(static_cast<int>(reflected_primaries(task_.tables.wavelengths).size())),
+      colours_(compute::Buffer(context, "colours of surfaces", colours_of(task_.tables.wavelengths))),
       texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
@@ -138,16 +146,14 @@ void Renderer::compile_air(int side) {
 bool Renderer::cast(Receivers& receivers) {
   return receivers.cast([&](const CastTexels& texels) {
     if (task_.settings.cast && caustics_) caustics_->cast(texels); // otherwise they stay 0
+    const shared::DeviceTexels of_list{tracing::to_float4(task_.placement.middle), texels.first, texels.count,
+                                       texels.size, static_cast<int>(sky_lights_.size() / 2)};
     world_.run(shadows_, texels.count, 32,
                {{"list", *texels.list},
-                {"first", texels.first},
-                {"count", texels.count},
-                {"size", texels.size},
-                {"middle", tracing::to_float4(task_.placement.middle)},
+                {"of_list", of_list},
                 {"distances", *texels.distances},
                 {"facing", *texels.normals},
                 {"sky_lights", sky_lights_},
-                {"light_count", static_cast<int>(sky_lights_.size() / 2)},
                 {"parts_seen", receivers.parts_seen()}});
   });
 }
@@ -205,68 +211,55 @@ void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::ui
               {"size", receivers.size()},
               {"middle", tracing::to_float4(task_.placement.middle)},
               {"camera", task_.tables.camera},
-              {"seed", world_.seed},
-              {"pass", static_cast<std::uint32_t>(pass_)},
-              {"block", block},
-              {"first", first},
-              {"count", count}});
+              {"blocks", blocks(block, first, count)}});
 }
 
 void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count) {
-  const scene::Environment& sky = backdrop(*task_.scene);
-  const int anew = pass_ == 0 ? 1 : 0;
+  shared::DeviceShading shading{};
+  shading.middle = tracing::to_float4(task_.placement.middle);
+  shading.background = texels_size_;
+  shading.blocks = blocks(block, first, count);
+  shading.size = receivers.size();
+  shading.width = task_.tables.camera.width;
+  shading.height = task_.tables.camera.height;
+  shading.anew = pass_ == 0 ? 1 : 0;
+  shading.radiance = static_cast<float>(backdrop(*task_.scene).radiance);
+  shading.power_unit = static_cast<float>(task_.tables.power_unit);
+  shading.sky_light_count = static_cast<int>(sky_lights_.size() / 2);
+  shading.lit_first = lit_first_;
   world_.run(block == 1 ? shade_ : coarse_shade_, count, 32,
              {{"ends", ends_},
               {"texels", texels_},
-              {"texels_size", texels_size_},
-              {"radiance", static_cast<float>(sky.radiance)},
-              {"lit_rgb", lit_rgb_},
-              {"reflected_rgb", reflected_rgb_},
+              {"colours", colours_},
               {"sky_lights", sky_lights_},
-              {"sky_light_count", static_cast<int>(sky_lights_.size() / 2)},
-              {"power_unit", static_cast<float>(task_.tables.power_unit)},
-              {"middle", tracing::to_float4(task_.placement.middle)},
-              {"size", receivers.size()},
               {"distances", receivers.distances()},
               {"caustics", receivers.caustics()},
               {"parts_seen", receivers.parts_seen()},
               {"sums", sums_},
-              {"width", task_.tables.camera.width},
-              {"height", task_.tables.camera.height},
-              {"seed", world_.seed},
-              {"pass", static_cast<std::uint32_t>(pass_)},
-              {"block", block},
-              {"anew", anew},
-              {"first", first},
-              {"count", count}});
+              {"shading", shading}});
 }
 
 void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count) {
   const Caustics::Air& air = caustics_->air();
   const Settings& s = task_.settings;
-  const int anew = pass_ == 0 ? 1 : 0;
+  shared::DeviceMedium medium{};
+  medium.middle = tracing::to_float4(task_.placement.middle);
+  medium.object = air.object;
+  medium.spheres = air.spheres;
+  medium.blocks = blocks(block, first, count);
+  medium.extinction = static_cast<float>(s.extinction);
+  medium.albedo = static_cast<float>(s.albedo);
+  medium.anisotropy = static_cast<float>(s.anisotropy);
+  medium.rayleigh = s.phase == Settings::Phase::rayleigh ? 1 : 0;
+  medium.size = around_->size();
+  medium.anew = pass_ == 0 ? 1 : 0;
   world_.run(volume_, count, 32,
              {{"air", air.light},
               {"radii", caustics_->radii()},
-              {"spheres", air.spheres},
-              {"object_x", air.object_x},
-              {"object_y", air.object_y},
-              {"object_z", air.object_z},
               {"distances", around_->distances()},
-              {"size", around_->size()},
-              {"middle", tracing::to_float4(task_.placement.middle)},
-              {"camera", task_.tables.camera},
-              {"extinction", static_cast<float>(s.extinction)},
-              {"albedo", static_cast<float>(s.albedo)},
-              {"rayleigh", static_cast<int>(s.phase == Settings::Phase::rayleigh)},
-              {"anisotropy", static_cast<float>(s.anisotropy)},
               {"sums", volume_sums_},
-              {"seed", world_.seed},
-              {"pass", static_cast<std::uint32_t>(pass_)},
-              {"block", block},
-              {"anew", anew},
-              {"first", first},
-              {"count", count}});
+              {"camera", task_.tables.camera},
+              {"medium", medium}});
 }
 
 std::vector<Renderer::Layer> Renderer::layers() const {

@@ -76,6 +76,9 @@ private:
   void light_up(); ///< called after a change of lights
   void end_pass();
   void begin_anew();
+  shared::DeviceBlocks blocks(int block, std::uint32_t first, std::uint32_t count) const {
+    return {world_.seed, static_cast<std::uint32_t>(pass_), block, first, count};
+  }
   void see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void scatter(int block, std::uint32_t first, std::uint32_t count);
@@ -94,7 +97,8 @@ private:
   std::optional<Occlusion> occlusion_; ///< what hides the segmentation's lights
   compute::Kernel see_, shadows_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;
-  compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_;
+  int lit_first_; ///< DeviceShading::lit_first
+  compute::Buffer<shared::float4> colours_;
   compute::Buffer<shared::float4> sky_lights_; ///< the segmentation's, as shade.cl has them
   compute::Buffer<float> texels_;
   shared::DeviceBackground texels_size_{};

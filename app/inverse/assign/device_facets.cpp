@@ -263,29 +263,25 @@ std::vector<compute::Argument> DeviceFacets::facet_arguments() const {
 }
 
 /// The batch outlives them.
-std::vector<compute::Argument> DeviceFacets::batch_arguments(const Batch& batch) const {
+std::vector<compute::Argument> DeviceFacets::batch_arguments(const shared::DeviceBatch& batch) const {
   std::vector<compute::Argument> arguments = facet_arguments();
-  arguments.insert(arguments.end(), {{"lack", lack_},
-                                     {"smoothing", batch.smoothing},
-                                     {"order", order_},
-                                     {"first", batch.first},
-                                     {"count", batch.count}});
+  arguments.insert(arguments.end(), {{"lack", lack_}, {"order", order_}, {"batch", batch}});
   return arguments;
 }
 
 /// Each rank looks for some of the facets. Then all know of all.
-void DeviceFacets::find_better(const Batch& batch) {
+void DeviceFacets::find_better(const shared::DeviceBatch& batch) {
   const Communicator& communicator = context_.communicator();
   const std::size_t ranks = static_cast<std::size_t>(communicator.size()),
                     rank = static_cast<std::size_t>(communicator.rank()), count = batch.count;
   const std::size_t begin = count * rank / ranks, own = count * (rank + 1) / ranks - begin;
   if (own > 0) {
-    const Batch part{batch.first + static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(own), batch.smoothing};
-    const std::vector<compute::Argument> shared = batch_arguments(part);
-    propose_.run(own, group, shared,
-                 {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
-    improve_.run(own, group, shared,
-                 {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
+    shared::DeviceBatch part = batch;
+    part.first += static_cast<std::uint32_t>(begin);
+    part.count = static_cast<std::uint32_t>(own);
+    const std::vector<compute::Argument> arguments = batch_arguments(part);
+    propose_.run(own, group, arguments, {{"smeared", smeared_}, {"candidates", candidates_}});
+    improve_.run(own, group, arguments, {{"candidates", candidates_}, {"found", found_}, {"done", done_}});
   }
   if (communicator.is_alone()) return;
   share(found_, begin, own, count, communicator);
@@ -293,9 +289,14 @@ void DeviceFacets::find_better(const Batch& batch) {
 }
 
 void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothing) {
-  const Batch batch{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
-                    static_cast<float>(smoothing)};
-  const std::vector<compute::Argument> shared = batch_arguments(batch);
+  shared::DeviceBatch batch{seed_,
+                            sweep_,
+                            turn_,
+                            static_cast<std::uint32_t>(first),
+                            static_cast<std::uint32_t>(count),
+                            static_cast<float>(smoothing),
+                            0};
+  const std::vector<compute::Argument> arguments = batch_arguments(batch);
   smear_y_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
   smear_x_.run(rows_, 1,
                {{"layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
@@ -305,14 +306,10 @@ void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothin
       claims_.write(std::vector<std::uint32_t>(claims_.size(), ~0u));
       turn_ = 0;
     }
-    claim_.run(count, group, shared, {{"found", found_}, {"done", done_}, {"claims", claims_}, {"turn", turn_}});
-    take_.run(count, group, shared,
-              {{"found", found_},
-               {"done", done_},
-               {"claims", claims_},
-               {"turn", turn_},
-               {"light", light_},
-               {"wanted", wanted_}});
+    batch.turn = turn_;
+    claim_.run(count, group, arguments, {{"found", found_}, {"done", done_}, {"claims", claims_}});
+    take_.run(count, group, arguments,
+              {{"found", found_}, {"done", done_}, {"claims", claims_}, {"light", light_}, {"wanted", wanted_}});
   }
   context_.finish();
 }

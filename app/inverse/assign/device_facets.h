@@ -61,15 +61,10 @@ private:
   std::uint32_t sweep_ = 0, turn_ = 0;
   shared::uint2 seed_{};
 
-  /// Facets first .. first + count - 1 of the order, and what improve() is told.
-  struct Batch {
-    std::uint32_t first, count;
-    float smoothing;
-  };
   std::vector<compute::Argument> facet_arguments() const;
-  std::vector<compute::Argument> batch_arguments(const Batch& batch) const;
+  std::vector<compute::Argument> batch_arguments(const shared::DeviceBatch& batch) const;
   void find_lack();
-  void find_better(const Batch& batch);
+  void find_better(const shared::DeviceBatch& batch);
 };
 
 } // namespace nephroid::inverse

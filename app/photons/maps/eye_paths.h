@@ -58,19 +58,17 @@ public:
   /// Queues the next path of each of `count` of the camera's pixels, into points().
   void trace(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths,
              int cluster, const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count) {
+    const shared::DeviceViewLaunch launch{seed,
+                                          pass,
+                                          paths.before,
+                                          paths.before_in_half,
+                                          paths.count,
+                                          cluster,
+                                          static_cast<int>(world_.tables.objects.size()),
+                                          first,
+                                          count};
     world_.queue(view_, std::max(count, 1u), 64,
-                 {{"points", points_},
-                  {"camera", camera},
-                  {"seed", seed},
-                  {"pass", pass},
-                  {"sample", paths.before},
-                  {"place", paths.before_in_half},
-                  {"path_count", paths.count},
-                  {"cluster", cluster},
-                  {"object_count", static_cast<int>(world_.tables.objects.size())},
-                  {"pixels", pixels},
-                  {"first", first},
-                  {"count", count}});
+                 {{"points", points_}, {"camera", camera}, {"pixels", pixels}, {"launch", launch}});
   }
 
 private:

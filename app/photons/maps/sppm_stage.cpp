@@ -221,27 +221,22 @@ private:
   void send_photons(std::int64_t pass, const tracing::PhotonSlice& slice) {
     const int cluster = std::min(at_.cluster, cluster_count() - 1);
     const ClusterPhotons& sender = senders_[static_cast<std::size_t>(cluster)];
-    const RunTables& t = world_.tables;
     const std::int64_t iteration = iterations_of(cluster, pass);
-    world_.send(send_, slice, iteration,
+    shared::DevicePhotonLaunch launch = world_.photon_launch();
+    launch.seed = seed_of(cluster);
+    launch.photons_per_batch = photons_;
+    launch.map_pass = static_cast<std::uint32_t>(iteration);
+    launch.emitter_count = sender.emitter_count;
+    launch.energy_scale = world_.on_device(world_.tables.energy_scale);
+    launch.stored_scale = world_.on_device(sender.photon_scale);
+    world_.send(send_, slice, iteration, launch,
                 {{"emitters", sender.emitters},
                  {"film", unused_},
                  {"energy", run_of(cluster).energy},
                  {"moments", unused_},
                  {"guide_moments", unused_},
                  {"guide", no_guide_},
-                 {"unseen_weight", 0.0f},
-                 {"stored", map_.stored()},
-                 {"stored_first", 0u},
-                 {"map_pass", static_cast<std::uint32_t>(iteration)},
-                 {"photons_per_batch", photons_},
-                 {"emitter_count", sender.emitter_count},
-                 {"object_count", static_cast<int>(t.objects.size())},
-                 {"seed", seed_of(cluster)},
-                 {"first_iteration", 0u},
-                 {"film_scale", 0.0f},
-                 {"energy_scale", world_.on_device(t.energy_scale)},
-                 {"stored_scale", world_.on_device(sender.photon_scale)}});
+                 {"stored", map_.stored()}});
   }
 
   /// items is the number of work items, at least one; the first `count` gather.

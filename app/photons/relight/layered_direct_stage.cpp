@@ -32,6 +32,15 @@ public:
       cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
     return rows_.advance(world_.context.communicator(), [&](std::uint32_t first_row, std::uint32_t rows) {
       const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
+      // A sample through glass adds to one cell as often as it has paths.
+      const auto limit = static_cast<float>(world_.tables.direct_limit / paths_through_glass);
+      const shared::DeviceRowLaunch launch{world_.seed,
+                                           static_cast<std::uint32_t>(pass),
+                                           static_cast<int>(first_row),
+                                           static_cast<int>(rows),
+                                           world_.on_device(world_.tables.direct_scale),
+                                           limit,
+                                           0};
       world_.run(kernel_, pixels, 64,
                  {{"cluster_cdf", cluster_cdf_},
                   {"mean_reflectance", relighting_.mean_reflectance},
@@ -46,13 +55,7 @@ public:
                   {"bent_layer_count", bent_.layer_count()},
                   {"energy", world_.energy},
                   {"camera", world_.tables.camera},
-                  {"seed", world_.seed},
-                  {"frame", static_cast<std::uint32_t>(pass)},
-                  {"first_row", static_cast<int>(first_row)},
-                  {"row_count", static_cast<int>(rows)},
-                  {"film_scale", world_.on_device(world_.tables.direct_scale)},
-                  // A sample through glass adds to one cell as often as it has paths.
-                  {"film_limit", static_cast<float>(world_.tables.direct_limit / paths_through_glass)}});
+                  {"launch", launch}});
     });
   }
 

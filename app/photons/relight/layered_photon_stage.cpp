@@ -33,19 +33,18 @@ public:
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
     const std::int64_t batches = slices_.advance(
         world_.context.communicator(), world_.tables.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
-          world_.send(
-              kernel_, slice, pass,
-              {{"emitters", world_.emitters},
-               {"film_first", film_.first()},
-               {"film_cells", film_.cells()},
-               {"film_sums", film_.sums()},
-               {"film_layer_count", film_.layer_count()},
-               {"mean_reflectance", relighting_.mean_reflectance},
-               {"energy", world_.energy},
-               {"seed", world_.seed},
-               {"first_iteration", static_cast<std::uint32_t>(at_.first_iteration)},
-               {"film_scale", world_.on_device(scale_)},
-               {"energy_scale", static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest())}});
+          shared::DevicePhotonLaunch launch = world_.photon_launch();
+          launch.first_iteration = static_cast<std::uint32_t>(at_.first_iteration);
+          launch.film_scale = world_.on_device(scale_);
+          launch.energy_scale = static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest());
+          world_.send(kernel_, slice, pass, launch,
+                      {{"emitters", world_.emitters},
+                       {"film_first", film_.first()},
+                       {"film_cells", film_.cells()},
+                       {"film_sums", film_.sums()},
+                       {"film_layer_count", film_.layer_count()},
+                       {"mean_reflectance", relighting_.mean_reflectance},
+                       {"energy", world_.energy}});
         });
     if (batches > 0)
       for (std::size_t e = 0; e < emitters_.size(); ++e) sent_[e][at_.half] += emitters_[e].photon_count;
