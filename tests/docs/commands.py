@@ -11,7 +11,7 @@ what an earlier one wrote. What is cut, and nothing else (CUT and cut_short):
 - `run` has one pass, a picture of 64 x 64 pixels, no reference, few photons, few facets and a small bake, and of an
   animation two frames. Where the command itself has at most 2 passes it keeps them. Before that, `plan` is asked about
   the same preset and settings as they stand, at full size.
-- `export` renders its pictures of light with 64 pixels for a second.
+- `export` renders its pictures of light, 64 pixels wide, for a second each.
 - `check` is run by tests of its own; here its arguments are checked.
 - a window opens on a virtual display, with 3 frames and a screenshot. Where there is no Xvfb, it is not run.
 

@@ -100,7 +100,7 @@ TEST_P(ErrorEstimate, IsTheTrueErrorWithinAQuarter) {
 INSTANTIATE_TEST_SUITE_P(Presets, ErrorEstimate,
                          testing::Combine(testing::Values("first-light", "spectral/prism", "spectral/ball-lens",
                                                           "spectral/brilliant", "spectral/plate"),
-                                          testing::Values(1 << 11)),
+                                          testing::Values(1 << 11, 1 << 13)),
                          [](const auto& parameters) {
                            const std::string preset = std::get<0>(parameters.param);
                            std::string name = preset.substr(preset.find('/') + 1) + "_" +
