@@ -6,8 +6,8 @@ if(NOT EXISTS ${program})
   set_tests_properties(${group}.not_built PROPERTIES LABELS ${group})
   return()
 endif()
-# Seconds that the longest suites took in one run of CI, on two busy cores and with kernels to compile. ctest starts what
-# costs most first, so that none of these is left running alone at the end.
+# Seconds that the longest suites took in one run of CI, on two busy cores and with kernels to compile. ctest starts
+# what costs most first, so that none of these is left running alone at the end.
 set(seconds images.All/ShippedPreset 251 environment.EnvironmentRun 182 hostile.CheckVerb 157 hostile.Ranks 156
   physics.Kernels/CheckFault 146 inverse.InverseRun 145 hostile.Resumed 143 environment.EnvironmentRefined 142
   ui.ParametersSchemaTest 138 images.Presets/ErrorEstimate 113 physics.TilesAndPoints 117 hostile.Animations 99

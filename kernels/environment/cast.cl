@@ -8,17 +8,17 @@
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
 __kernel void cast(__global const uchar* texels, __global const ushort* blocks, __global const float4* way_of,
                    __global const float* radii, __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres,
-                   __global const uint* list, DeviceTexels of_list, __global const float* distances,
+                   __global const uint* list, DeviceTexels slice, __global const float* distances,
                    __global const float4* normals, __global float* caustics) {
   const uint index = work_item();
-  if (index >= of_list.count) return;
-  const uint texel = list[of_list.first + index];
+  if (index >= slice.count) return;
+  const uint texel = list[slice.first + index];
   const float distance = distances[texel];
   float3 caustic = (float3)(0.0f);
   if (distance < INFINITY) {
     const Maps maps = {texels, blocks, way_of};
     const float beyond = fmax(1.0f - radii[spheres.count - 1] / distance, 0.0f);
-    const float3 direction = cube_texel_direction(texel, of_list.size);
+    const float3 direction = cube_texel_direction(texel, slice.size);
     caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, direction,
                                                       shell_at(radii, spheres.count, distance), beyond,
                                                       normals[texel].xyz);

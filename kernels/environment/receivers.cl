@@ -7,14 +7,14 @@
 #include "kernels/tracing/world.h"
 
 // list: texels. distances: [texel]: INFINITY where there is nothing.
-__kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, DeviceTexels of_list,
+__kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, DeviceTexels slice,
                         __global float* distances, __global float4* facing) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= of_list.count) return;
-  const uint texel = list[of_list.first + index];
-  const float3 direction = cube_texel_direction(texel, of_list.size);
-  const Hit hit = closest_hit(world.geometry.nodes, world.geometry.blocks, world.geometry.root, of_list.middle.xyz,
+  if (index >= slice.count) return;
+  const uint texel = list[slice.first + index];
+  const float3 direction = cube_texel_direction(texel, slice.size);
+  const Hit hit = closest_hit(world.geometry.nodes, world.geometry.blocks, world.geometry.root, slice.middle.xyz,
                               direction, 0.0f, INFINITY, NEPHROID_NO_PRIMITIVE);
   distances[texel] = hit.primitive == NEPHROID_NO_PRIMITIVE ? INFINITY : hit.t;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;

@@ -93,7 +93,7 @@ typedef struct {
   float radiance;    // of the texel (1, 1, 1)
   float power_unit;
   int sky_light_count;
-  int lit_first; // where lit_rgb begins in the table of colours
+  int padding;
 } DeviceShading;
 
 // What volume.cl says of the medium, and beside its buffers.

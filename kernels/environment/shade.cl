@@ -118,7 +118,7 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
 
 // Adds to the sums of each block's pixels, or begins them anew. sums: [layer][pixel][3].
 __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels,
-                    __global const float4* colours, // reflected_rgb, then lit_rgb
+                    __global const float4* colours, // reflected_rgb: 3 a reflector; then lit_rgb
                     __global const float4* sky_lights, __global const float* distances, __global const float* caustics,
                     __global const float* parts_seen, __global float* sums, DeviceShading shading) {
   const World world = WORLD;
@@ -147,7 +147,7 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
     float3 smooth, seen;
     const float3 caustic = caustic_irradiance(&receivers, &end, &seen);
     layers[LAYER_DIRECT] +=
-        throughput * direct_radiance(&world, &end, colours + shading.lit_first, colours, &sky_in_lights,
+        throughput * direct_radiance(&world, &end, colours + 3 * scene.reflector_count, colours, &sky_in_lights,
                                      shading.power_unit, blocks.seed, blocks.pass, pixel * ENDS_OF_PIXEL + i, seen,
                                      &smooth);
     layers[LAYER_SMOOTH] += throughput * smooth;

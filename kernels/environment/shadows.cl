@@ -11,20 +11,20 @@
 #define OFF_RECEIVER 1e-4f
 
 // facing: from receivers.cl. sky_lights: each light's unit direction, then its flux. parts_seen: [texel][3].
-__kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, DeviceTexels of_list,
+__kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, DeviceTexels slice,
                       __global const float* distances, __global const float4* facing, __global const float4* sky_lights,
                       __global float* parts_seen) {
   const World world = WORLD;
   const uint index = work_item();
-  if (index >= of_list.count) return;
-  const uint texel = list[of_list.first + index];
+  if (index >= slice.count) return;
+  const uint texel = list[slice.first + index];
   const float distance = distances[texel];
   if (!(distance < INFINITY)) return;
   const float3 normal = facing[texel].xyz,
-               from = of_list.middle.xyz +
-                      distance * (cube_texel_direction(texel, of_list.size) + OFF_RECEIVER * normal);
+               from = slice.middle.xyz +
+                      distance * (cube_texel_direction(texel, slice.size) + OFF_RECEIVER * normal);
   float3 all = (float3)(FLT_MIN), seen = all; // not 0, so that the dark is seen in full
-  for (int l = 0; l < of_list.light_count; ++l) {
+  for (int l = 0; l < slice.light_count; ++l) {
     const float3 direction = sky_lights[2 * l].xyz,
                  irradiance = fmax(dot(normal, direction), 0.0f) * sky_lights[2 * l + 1].xyz;
     all += irradiance;

@@ -83,10 +83,10 @@ void Caustics::compile_air(int side) {
 
 void Caustics::cast(const CastTexels& texels) {
   seconds_ += tracing::seconds_of([&] {
-    const shared::DeviceTexels of_list{{}, texels.first, texels.count, texels.size, 0};
+    const shared::DeviceTexels slice{{}, texels.first, texels.count, texels.size, 0};
     cast_.run(texels.count, group, arguments(),
               {{"list", *texels.list},
-               {"of_list", of_list},
+               {"slice", slice},
                {"distances", *texels.distances},
                {"normals", *texels.normals},
                {"caustics", *texels.caustics}});

@@ -59,10 +59,9 @@ void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm
     distances_.write(std::vector<float>(distances_.size(), std::numeric_limits<float>::infinity()));
     return;
   }
-  const shared::DeviceTexels added_texels{tracing::to_float4(middle), first, count, size_, 0};
-  surroundings->world.run(
-      surroundings->receivers, count, 32,
-      {{"list", list_}, {"of_list", added_texels}, {"distances", distances_}, {"facing", normals_}});
+  const shared::DeviceTexels slice{tracing::to_float4(middle), first, count, size_, 0};
+  surroundings->world.run(surroundings->receivers, count, 32,
+                          {{"list", list_}, {"slice", slice}, {"distances", distances_}, {"facing", normals_}});
 }
 
 void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle) {

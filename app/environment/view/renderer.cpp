@@ -48,7 +48,6 @@ Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const mpi:
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
       world_(tracing::make_world(context, *task_.scene, *task_.bvh, task_.tables, task_.defines, seed)),
       channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),
-      lit_first_(static_cast<int>(reflected_primaries(task_.tables.wavelengths).size())),
       colours_(compute::Buffer(context, "colours of surfaces", colours_of(task_.tables.wavelengths))),
       texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
@@ -146,11 +145,11 @@ void Renderer::compile_air(int side) {
 bool Renderer::cast(Receivers& receivers) {
   return receivers.cast([&](const CastTexels& texels) {
     if (task_.settings.cast && caustics_) caustics_->cast(texels); // otherwise they stay 0
-    const shared::DeviceTexels of_list{tracing::to_float4(task_.placement.middle), texels.first, texels.count,
-                                       texels.size, static_cast<int>(sky_lights_.size() / 2)};
+    const shared::DeviceTexels slice{tracing::to_float4(task_.placement.middle), texels.first, texels.count,
+                                     texels.size, static_cast<int>(sky_lights_.size() / 2)};
     world_.run(shadows_, texels.count, 32,
                {{"list", *texels.list},
-                {"of_list", of_list},
+                {"slice", slice},
                 {"distances", *texels.distances},
                 {"facing", *texels.normals},
                 {"sky_lights", sky_lights_},
@@ -226,7 +225,6 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
   shading.radiance = static_cast<float>(backdrop(*task_.scene).radiance);
   shading.power_unit = static_cast<float>(task_.tables.power_unit);
   shading.sky_light_count = static_cast<int>(sky_lights_.size() / 2);
-  shading.lit_first = lit_first_;
   world_.run(block == 1 ? shade_ : coarse_shade_, count, 32,
              {{"ends", ends_},
               {"texels", texels_},

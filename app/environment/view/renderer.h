@@ -97,7 +97,6 @@ private:
   std::optional<Occlusion> occlusion_; ///< what hides the segmentation's lights
   compute::Kernel see_, shadows_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;
-  int lit_first_; ///< DeviceShading::lit_first
   compute::Buffer<shared::float4> colours_;
   compute::Buffer<shared::float4> sky_lights_; ///< the segmentation's, as shade.cl has them
   compute::Buffer<float> texels_;
