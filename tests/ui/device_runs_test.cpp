@@ -47,9 +47,9 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture) {
 
   // Compiles again, and gives another picture: nothing is added to the film.
   std::string dark = original;
-  const std::string adding = "frame, xyz, film_scale,";
-  ASSERT_NE(dark.find(adding), std::string::npos);
-  dark.replace(dark.find(adding), adding.size(), "frame, 0.0f * xyz, film_scale,");
+  const std::string added = "frame, xyz,";
+  ASSERT_NE(dark.find(added), std::string::npos);
+  dark.replace(dark.find(added), added.size(), "frame, 0.0f * xyz,");
   write(dark);
   ASSERT_TRUE(until(
       [&] { return workbench.run().status().state == job::State::finished && workbench.run().snapshot_is_current(); }));
