@@ -50,7 +50,7 @@ std::vector<plan::Decision> code_decisions(const preset::Preset& preset, const B
   static constexpr std::array<std::string_view, 4> names{"mirrors", "bending", "attenuation", "smooth normals"};
   std::vector<plan::Decision> decisions =
       tracing::code_omissions(tracing::LeaveOut{.all = preset.leave_out}, task.caster.scene,
-                              task.tables.wavelengths.attenuator_count)
+                              task.tables.wavelengths.takes_light)
           .decisions;
   std::erase_if(decisions, [](const plan::Decision& decision) { return !std::ranges::count(names, decision.name); });
   return decisions;

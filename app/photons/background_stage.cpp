@@ -68,7 +68,6 @@ public:
         spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf)) {
     compute::Defines defines = world.eye_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
-    defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(int(tracing::goes_one_way(scene))));
     kernel_ = compute::Program(world.context, "photons/background.cl", defines).kernel("background");
   }
 

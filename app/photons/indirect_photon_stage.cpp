@@ -222,7 +222,7 @@ PlanPart plan_indirect_photons(const PlanInput& input) {
   if (map_decision(input).runs || input.is_sppm()) part.notes.clear(); // they are there
   part.buffers.push_back(film);
   part.buffers.push_back({"film indirect photon maps", input.film_bytes()});
-  const bool shares = jitter_decision(input).runs || input.tables.wavelengths.attenuator_count > 0;
+  const bool shares = jitter_decision(input).runs || input.tables.wavelengths.takes_light;
   part.defines = {{"NEPHROID_SHARED_BANDS", std::to_string(int(shares))}};
   return part;
 }

@@ -12,11 +12,10 @@ constexpr int least_enough = 1 << 16; ///< samples of a pixel: light from walls 
 
 class IndirectStage final : public EyeStage {
 public:
-  IndirectStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
+  IndirectStage(StageContext& world, const scene::Scene&, const Settings& settings)
       : EyeStage(world, "indirect", "indirect", settings, paths_of_a_sample, least_enough) {
     compute::Defines defines = world.eye_defines();
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // a path has wavelengths, not clusters
-    defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(int(tracing::goes_one_way(scene))));
     kernel_ = compute::Program(world.context, "photons/indirect.cl", defines).kernel("indirect");
   }
 

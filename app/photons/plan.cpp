@@ -49,7 +49,7 @@ PlanPart plan_omissions(const PlanInput& input) {
       return decision.name == "dark lights" || decision.name == "unlit wavelengths";
     });
   tracing::CodeOmissions code =
-      tracing::code_omissions(input.leave_out, input.scene, input.tables.wavelengths.attenuator_count);
+      tracing::code_omissions(input.leave_out, input.scene, input.tables.wavelengths.takes_light);
   std::ranges::move(code.decisions, std::back_inserter(part.decisions));
   part.defines = std::move(code.defines);
   return part;
@@ -119,8 +119,8 @@ bool glass_meets_glass(const scene::Scene& scene) {
 }
 
 /// A rough surface sends neighbouring photons to different places, so no piece of light joins them. A tile has one
-/// colour, and a texture many. What a coating reflects, or passes a texture of glass, is worked out for one wavelength,
-/// and the others of its cluster are treated otherwise.
+/// colour, and a texture many. What a coating reflects is worked out for one wavelength, and the others of its cluster
+/// are treated otherwise.
 void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
   if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scatter::is_rough))
     throw bad_input(spectral / "estimator", "is tiles, and a rough surface scatters the corners of each",
@@ -148,12 +148,11 @@ void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& sc
   if (wanted.relight && std::ranges::any_of(scene.lights, is_seen))
     throw bad_input(spectral / "relight", "keeps layers of what surfaces scatter, and an object shines itself",
                     "expected false", "or take an area light in its place");
-  if (!any_material(scene, scatter::parts_wavelengths)) return;
-  const char* const what = any_material(scene, scatter::is_coated) ? "coating" : "texture of glass";
+  if (!any_material(scene, scatter::is_coated)) return;
   const auto refuse = [&](bool is_set, const char* field, const char* expected) {
     if (is_set)
-      throw bad_input(spectral / field, fmt::format("sends wavelengths of a cluster together, which a {} parts", what),
-                      expected, fmt::format("or take the {} away", what));
+      throw bad_input(spectral / field, "sends wavelengths of a cluster together, which a coating parts", expected,
+                      "or take the coating away");
   };
   refuse(!wanted.jitter, "jitter", "expected true");
   refuse(wanted.relight, "relight", "expected false");
@@ -217,8 +216,6 @@ plan::Decision differentials_decision(const PlanInput& input) {
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
   if (any_material(input.scene, scatter::is_coated))
     return {name, false, "a coating reflects each wavelength otherwise"};
-  if (any_material(input.scene, scatter::has_tint_texture))
-    return {name, false, "a texture of glass passes each wavelength otherwise"};
   if (along == tracing::StretchParameter::none)
     return {name, false, "no glass bends one wavelength otherwise than another"};
   if (!input.settings.jitter && !tiles)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metal by its measured n and k. Kernels have its reflectance by three terms (optics/conductor.h).
+// Metal by its measured n and k.
 #include "optics/fresnel.h"
 #include "scatter/kind.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <vector>
 
 namespace nephroid::scatter {
 
@@ -38,26 +38,17 @@ constinit const Kind kinds::conductor{
             loading.warn(fmt::format("its k is at most {:.2g}, which is no metal's: a conductor absorbs what a "
                                      "dielectric lets through",
                                      most));
-          made.conductor = optics::conductor_terms(made.n, made.k);
-          if (const double error = made.conductor.error; error > most_conductor_error)
-            throw bad_input(field, fmt::format("has a reflectance that is off by up to {:.2g} here", error),
-                            "expected n and k of a metal",
-                            "what light passes is a dielectric, with k as its absorption");
-          else if (error > 0.001)
-            loading.warn(fmt::format("its reflectance is off by up to {:.2g}", error));
           for (std::size_t w = 0; w < made.n.size(); ++w)
             made.reflectance[w] = optics::conductor_reflectance(1, 1, {made.n[w], made.k[w]});
         },
     .add_rows =
         [](const Material& material, Rows& rows) {
-          static_assert(CONDUCTOR_TERMS == optics::conductor_term_count);
-          if (is_rough(material)) rows.row.masking = rows.masking();
-          for (std::size_t j = 0; j < CONDUCTOR_TERMS; ++j) {
-            const std::size_t w = material.conductor.wavelengths[j];
-            const int data = rows.data(std::array{material.n[w], material.k[w]}),
-                      loss = rows.loss(material.conductor.coefficients[j]);
-            if (j == 0) rows.row.surface_first = data, rows.row.attenuator = loss;
-          }
+          rows.takes_light(
+              std::ranges::any_of(material.reflectance, [&](double r) { return r != material.reflectance[0]; }));
+          std::vector<double> n_and_k;
+          for (std::size_t w = 0; w < material.n.size(); ++w)
+            n_and_k.insert(n_and_k.end(), {material.n[w], material.k[w]});
+          rows.row.surface_first = rows.data(n_and_k);
         },
     .gltf =
         [](const Material& material) {

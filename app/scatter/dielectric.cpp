@@ -54,7 +54,7 @@ constinit const Kind kinds::dielectric{
     .add_rows =
         [](const Material& material, Rows& rows) {
           shared::DeviceMaterial& row = rows.row;
-          if (is_rough(material) || has_tint_texture(material)) row.masking = rows.masking();
+          if (is_rough(material) || has_tint_texture(material)) rows.takes_light(has_tint_texture(material));
           row.attenuator = rows.loss(loss_inside(material));
           if (has_tint_texture(material))
             row.reflector = rows.colour(material.tint, 1, true);

@@ -5,7 +5,6 @@
 #include "base/files.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/coat.h"
-#include "optics/conductor.h"
 #include "preset/preset.h"
 #include "scatter/texture.h"
 
@@ -28,7 +27,6 @@ struct Material {
       texture; ///< what its reflectance or, where light passes, tint is multiplied by; null: 1
   std::shared_ptr<const Texture> roughness_texture; ///< whose green its roughness is multiplied by; null: 1
   std::shared_ptr<const Texture> normal_map;        ///< (1 + normal) / 2, of any length; null: none
-  optics::ConductorTerms conductor;                 ///< of a metal
   double coat_n = 1;                                ///< index of refraction of the clear coat above its base
   optics::Coat coat;                                ///< the same coat
   optics::Spectrum tint{};                          ///< the part of the light that passes its surface
@@ -62,13 +60,14 @@ inline bool has_pictures(const Material& material) {
   return is_textured(material) || has_rough_texture(material) || has_normal_map(material);
 }
 
+/// Whether its surface reflects each wavelength of a cluster otherwise, so that a path has to have one.
 inline bool is_coated(const Material& material) { return material.coating_nm > 0; }
-
-/// Whether its surface parts the wavelengths of a cluster even where n does not, so that a path has to have one.
-inline bool parts_wavelengths(const Material& material) { return is_coated(material) || has_tint_texture(material); }
 
 /// Whether light passes its surface in other directions by wavelength.
 bool disperses(const Material& material);
+
+/// Whether its surface bends or reflects each wavelength otherwise, which splits a path.
+inline bool parts_wavelengths(const Material& material) { return disperses(material) || is_coated(material); }
 
 /// Whether light that passes its surface may go on in another direction, or is reflected.
 bool bends(const Material& material);
@@ -82,9 +81,6 @@ std::vector<double> loss_inside(const Material& material);
 /// At a surface a = -ln of what is left at normal incidence, and s counts reflections, or ways through tinted glass.
 std::vector<double> loss_at_surface(const Material& material);
 
-/// The most by which a conductor's reflectance may be off (optics/conductor.h).
-inline constexpr double most_conductor_error = 0.01;
-
 /// where: the material's. Throws bad_input for what its type cannot be, each in its file. Adds a warning where n is
 /// wanted outside the data's range, and for what a texture does not say.
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
@@ -95,6 +91,8 @@ struct DeviceMaterials {
   std::vector<shared::DeviceMaterial> materials; ///< [material]
   std::vector<float> coefficient, reflectance;   ///< rows of 401
   std::vector<float> surface_data;
+  bool takes_light = false;   ///< whether any light is lost in or at one
+  bool colours_light = false; ///< whether by wavelength
 };
 
 /// used: which materials get rows. Their textures are numbered one after the other, in the order texture,

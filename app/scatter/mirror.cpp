@@ -19,7 +19,7 @@ constinit const Kind kinds::mirror{
         },
     .add_rows =
         [](const Material& material, Rows& rows) {
-          if (is_rough(material)) rows.row.masking = rows.masking();
+          if (is_rough(material)) rows.takes_light();
           rows.row.attenuator = rows.loss(loss_at_surface(material));
         },
     .gltf = gltf_metal,

@@ -37,7 +37,7 @@ constinit const Kind kinds::plastic{
     .add_rows =
         [](const Material& material, Rows& rows) {
           static_assert(COAT_COSINES == optics::coat_cosines && COAT_MEAN == 1 && COAT_PARTS == 2);
-          rows.row.masking = rows.masking();
+          rows.takes_light();
           rows.row.reflector = rows.colour(material.reflectance, 1 / material.coat.mean, is_textured(material));
           rows.row.surface_first = rows.data(std::array{material.coat_n, material.coat.mean});
           rows.data(material.coat.passes);

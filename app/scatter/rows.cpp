@@ -38,13 +38,13 @@ std::vector<double> loss_at_surface(const Material& material) {
 int Rows::loss(std::span<const double> coefficients) {
   if (coefficients.empty()) return -1;
   for (const double a : coefficients) tables.coefficient.push_back(static_cast<float>(a));
+  takes_light(std::ranges::any_of(coefficients, [&](double a) { return a != coefficients.front(); }));
   return rows_of(tables.coefficient) - 1;
 }
 
-int Rows::masking() {
-  for (const shared::DeviceMaterial& before : tables.materials)
-    if (before.masking >= 0) return before.masking;
-  return loss(optics::constant_spectrum(1));
+void Rows::takes_light(bool by_wavelength) {
+  tables.takes_light = true;
+  tables.colours_light = tables.colours_light || by_wavelength;
 }
 
 int Rows::colour(const optics::Spectrum& colour, double factor, bool is_textured) {
@@ -66,7 +66,7 @@ int Rows::data(std::span<const double> values) {
 
 DeviceMaterials device_materials(const std::vector<Material>& materials, const std::vector<bool>& used) {
   DeviceMaterials tables;
-  tables.materials.assign(materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1, -1, -1, -1});
+  tables.materials.assign(materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1, -1, -1, 0});
   int textures = 0;
   const auto number = [&](const std::shared_ptr<const Texture>& texture) { return texture ? textures++ : -1; };
   for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -78,6 +78,7 @@ DeviceMaterials device_materials(const std::vector<Material>& materials, const s
     row.texture = number(material.texture);
     row.roughness_texture = number(material.roughness_texture);
     row.normal_map = number(material.normal_map);
+    row.parts_wavelengths = parts_wavelengths(material);
     Rows rows{tables, row};
     kind_of(material.type).add_rows(material, rows);
   }

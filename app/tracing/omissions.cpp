@@ -116,13 +116,6 @@ ObjectCounts count_objects(const scene::Scene& scene) {
   return counts;
 }
 
-bool goes_one_way(const scene::Scene& scene) {
-  return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
-    const scatter::Material& material = material_of(scene, object);
-    return parts_wavelengths(material) || disperses(material);
-  });
-}
-
 bool may_see_glass_or_mirror(const scene::Scene& scene) {
   return !scene.camera.inside.empty() || std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     return is_specular(material_of(scene, object).type) && may_be_in_view(scene, object);
@@ -162,11 +155,14 @@ std::vector<plan::Decision> data_omissions(const LeaveOut& leave_out, const scen
   return decisions;
 }
 
-CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators) {
+CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, bool takes_light) {
   const ObjectCounts counts = count_objects(scene);
   const unsigned types = light_type_bits(scene);
   const auto any = [&](bool (*is)(const scatter::Material&)) { return any_material(scene, is); };
   const bool bends = any(scatter::bends), blocked = !nothing_blocks_the_view(scene);
+  const bool unsplit = any([](const scatter::Material& material) {
+    return lobes(material.type) != LOBE_DIFFUSE && !parts_wavelengths(material);
+  });
   const unsigned materials = leave_out.mirrors ? material_type_bits(scene) : all_material_types;
   CodeOmissions omissions;
   // Adds a row, and returns whether its code is compiled.
@@ -186,9 +182,8 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       has(bends ? needed("bending", "glass has another n than its surroundings, or a coating")
                 : not_needed("bending", leave_out.bending, "no glass has another n than 1, and none a coating"));
   const bool attenuation = has(
-      attenuators > 0
-          ? needed("attenuation", counted(attenuators, "loss", "losses") + " by wavelength, in glass and at surfaces")
-          : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no surface is coloured"));
+      takes_light ? needed("attenuation", "glass absorbs, or a surface keeps a part of the light")
+                  : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no surface is coloured"));
   const bool smooth = has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
                           : any(scatter::has_normal_map)
                               ? needed("smooth normals", "a surface has a normal map")
@@ -211,8 +206,8 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_TINT_TEXTURES", flag(any(scatter::has_tint_texture))},
       {"NEPHROID_NORMAL_MAPS", flag(any(scatter::has_normal_map))},
       {"NEPHROID_TINTS", flag(any(scatter::is_tinted) || !leave_out.attenuation)},
-      // Without materials that attenuate there is one place all the same: the code is compiled and does nothing.
-      {"NEPHROID_ATTENUATORS", std::to_string(attenuation ? std::max(attenuators, 1) : 0)},
+      {"NEPHROID_LOSSES", flag(attenuation)},
+      {"NEPHROID_UNSPLIT", flag(unsplit)},
       {"NEPHROID_SMOOTH", flag(smooth)},
       {"NEPHROID_LENS", flag(!scene.camera.is_plain())}};
   return omissions;

@@ -24,9 +24,6 @@ ObjectCounts count_objects(const scene::Scene& scene);
 /// False only where no glass object or mirror is in the camera's view or encloses the camera.
 bool may_see_glass_or_mirror(const scene::Scene& scene);
 
-/// Whether no object's glass disperses light, is coated or has a texture.
-bool goes_one_way(const scene::Scene& scene);
-
 /// Rows of the plan for what may be left out. What the scene does not need runs where nothing is left out.
 plan::Decision needed(const std::string& name, std::string reason);
 plan::Decision not_needed(const std::string& name, bool leave_out, std::string reason);
@@ -39,7 +36,7 @@ struct CodeOmissions {
   std::vector<plan::Decision> decisions;
   std::map<std::string, std::string> defines; ///< -D flags
 };
-/// attenuators: WavelengthTables::attenuator_count.
-CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, int attenuators);
+/// takes_light: of WavelengthTables.
+CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scene, bool takes_light);
 
 } // namespace nephroid::tracing

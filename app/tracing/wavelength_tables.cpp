@@ -54,7 +54,7 @@ void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables) {
   const std::vector<bool> used = used_materials(scene);
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     if (!used[m] || !is_refractive(scene.materials[m].type)) continue;
-    tables.clusters_spread = tables.clusters_spread || parts_wavelengths(scene.materials[m]);
+    tables.clusters_spread = tables.clusters_spread || is_coated(scene.materials[m]);
     const Spectrum& n = scene.materials[m].n;
     for (const std::vector<int>& cluster : tables.clusters)
       for (const int w : cluster)
@@ -207,7 +207,8 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
   tables.coefficient = std::move(rows.coefficient);
   tables.reflectance = std::move(rows.reflectance);
   tables.surface_data = std::move(rows.surface_data);
-  tables.attenuator_count = static_cast<int>(tables.coefficient.size() / wavelength_count);
+  tables.takes_light = rows.takes_light;
+  tables.colours_light = rows.colours_light;
   tables.reflector_count = static_cast<int>(tables.reflectance.size() / wavelength_count);
   add_cluster_rows(scene, clusters, lit, tables);
   add_wavelength_rows(scene, tables);

@@ -17,10 +17,11 @@ struct WavelengthTables {
   std::vector<std::vector<int>> clusters; ///< [cluster]: wavelength indices, without those left out
   WAVELENGTH_TABLES(TABLE_VECTOR)
   COLOUR_TABLES(TABLE_VECTOR)
-  bool clusters_spread = false;           ///< whether n, or what glass reflects or passes, differs inside any cluster
+  bool clusters_spread = false;           ///< whether n, or what glass reflects, differs inside any cluster
   std::vector<std::vector<double>> share; ///< [light][cluster]: part of the light's power
   std::vector<std::vector<double>> seen;  ///< [light][cluster]: what the eye makes of that: worth() in scales.h
-  int attenuator_count = 0, reflector_count = 0;
+  bool takes_light = false, colours_light = false; ///< scatter::DeviceMaterials
+  int reflector_count = 0;
 };
 
 /// Fills every table, and materials. Only materials that an object uses get rows.

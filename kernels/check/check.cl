@@ -124,7 +124,8 @@ kernel void media_walks(global const DeviceObject* objects, global const int* st
   }
 }
 
-// in: light, cluster, reflector, attenuator. lengths: the length crossed in the attenuator.
+// in: light, cluster, reflector, row of attenuation; and the length crossed there. out: what is left of the cluster's
+// light, in fours of its wavelengths.
 kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient,
                        global const float4* light_xyz, global const float* reflectance, global const int4* in,
                        global const float* lengths, global float4* out, uint count) {
@@ -135,9 +136,21 @@ kernel void attenuated(global const int* first, global const int* wavelengths, g
                                  .coefficient = coefficient,
                                  .light_xyz = light_xyz,
                                  .reflectance = reflectance};
-  Losses losses = no_losses();
-  lose(&losses, in[i].w, lengths[i]);
-  out[i] = attenuated_sum(&tables, &losses, in[i].x, in[i].y, reflector_of_row(in[i].z));
+  const Reflector reflector = reflector_of_row(in[i].z);
+  float4 sum = (float4)(0.0f);
+  const int end = first[in[i].y + 1];
+  for (int w = first[in[i].y]; w < end; w += 4) {
+    Band band = whole_cluster(in[i].y);
+    band.own.wavelengths = (int4)(wavelengths[w], wavelengths[min(w + 1, end - 1)], wavelengths[min(w + 2, end - 1)],
+                                  wavelengths[min(w + 3, end - 1)]);
+    band.own.weights = (float4)(1.0f, w + 1 < end, w + 2 < end, w + 3 < end);
+    band.own.middle = wavelengths[w];
+    Throughput throughput = full_throughput();
+    attenuate(&tables, &throughput, &band, in[i].w, lengths[i]);
+    const float4 all = members_light(&tables, in[i].x, w, min(w + 4, end), reflector);
+    sum += coloured_light(&tables, &throughput.own, all, in[i].x, &band.own, reflector);
+  }
+  out[i] = sum;
 }
 
 // out: for photon i of a light origin and watts, then direction.

@@ -63,11 +63,6 @@ static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 di
   }
 }
 
-// The part of the path's power that is left, 0..1.
-static inline float left_of(const World* world, const Path* path, const Band* band) {
-  return wavelength_left(&world->tables, &path->losses, band->wavelength < 0 ? 0 : band->wavelength);
-}
-
 // light_rgb: [401] each wavelength of white light in linear sRGB; their sum is (1, 1, 1).
 static inline Carried carried_by(__global const float4* light_rgb, const Band* band, float power) {
   Carried carried;
@@ -114,7 +109,7 @@ static inline void visit_segment(const World* world, Visitor* photon, const Path
   const bool leaves = hit->primitive == NEPHROID_NO_PRIMITIVE;
   if (photon->met && (leaves || is_in_air(&path->media))) {
     const Carried carried =
-        carried_by(photon->light_rgb, &photon->band, photon->power * left_of(world, path, &photon->band));
+        carried_by(photon->light_rgb, &photon->band, photon->power * part_left(&path->throughput));
     mark_spheres(photon->spheres, path->origin, path->direction, leaves ? INFINITY : hit->t, &carried);
   }
   photon->met = photon->met || !leaves;
@@ -143,14 +138,14 @@ __kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global c
     const float power = emission.watts * launch.scale;
     const Band band = choose_band(&world, 0, 0, start.w);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 light->inside,   no_losses(),        emission.behind};
+                 light->inside,   full_throughput(),  emission.behind};
     Visitor visitor = {&spheres, light_rgb, band, power, launch.seed, launch.number, photon, false, (float4)(0.0f)};
     Hit hit;
     Interaction at;
     int surfaces;
     const int how = walk(&world, &visitor, &path, &hit, false, 0, &at, &surfaces);
     const int outcome = how == WALK_LOST ? OUTCOME_LOST : visitor.met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
-    const long quanta = convert_long_rte(power), left = convert_long_rte(power * left_of(&world, &path, &band));
+    const long quanta = convert_long_rte(power), left = convert_long_rte(power * part_left(&path.throughput));
     add_outcome(outcomes, OUTCOME_EMITTED, quanta);
     add_outcome(outcomes, outcome, left);
     add_outcome(outcomes, OUTCOME_ABSORBED, quanta - left);

@@ -24,8 +24,7 @@ static inline DeviceEnd end_of(const World* world, Visitor* eye, Path path, Hit 
     int last;
     if (follow_eye_path(world, eye, &path, &hit, &at, &last) == 0.0f) return end;
   }
-  const float left = wavelength_left(&world->tables, &path.losses, max(eye->band.wavelength, 0));
-  float3 throughput = eye->radiance_scale * left * (eye->share * weight);
+  float3 throughput = eye->radiance_scale * part_left(&path.throughput) * (eye->share * weight);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
     end.throughput = (float4)(throughput, (float)END_SKY);
     end.place = (float4)(path.direction, 0.0f);
@@ -62,8 +61,7 @@ static inline void want(const DeviceEnd* end, float4 middle, int size, __global 
 // The band of a path for one channel: a wavelength drawn by its share of that. channel_cdf: [channel][401].
 static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u) {
 #if NEPHROID_JITTER
-  const Band band = {0, choose(channel_cdf + channel * WAVELENGTH_COUNT, WAVELENGTH_COUNT, u), 1.0f};
-  return band;
+  return one_wavelength(0, choose(channel_cdf + channel * WAVELENGTH_COUNT, WAVELENGTH_COUNT, u), 1.0f);
 #else
   return whole_cluster(0);
 #endif

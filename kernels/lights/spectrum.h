@@ -4,31 +4,52 @@
 #include "kernels/tracing/world.h"
 
 // carried_light of one row of the tables of lights.
-static inline float4 carried_row(const World* world, const Losses* losses, int light, const Band* band,
+static inline float4 carried_row(const World* world, const Throughput* throughput, int light, const Band* band,
                                  Reflector reflector) {
-#if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
-  if (band->wavelength >= 0) {
-    const int wavelength = made_late(band->wavelength);
-    const float left = wavelength_left(&world->tables, losses, wavelength) * band->weight;
-    const float reflectance = reflectance_of(&world->tables, reflector, wavelength);
-    const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + wavelength];
-    return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
+  const SpectralTables* tables = &world->tables;
+  if (is_unsplit(throughput, band)) {
+    const float4 all =
+        band->chance *
+        (is_white(reflector)
+             ? members_light(tables, light, 0, tables->cluster_first[world->scene.cluster_count], reflector)
+             : reflected_colour_of(world->reflected_xyz_all, light * world->scene.reflector_count, reflector));
+    return are_coloured(&throughput->all)
+               ? coloured_light(tables, &throughput->all, all, light, &band->all, reflector)
+               : throughput->all.middle * all;
   }
+#if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
+  if (band->wavelength >= 0)
+    return part_left(throughput) * band->weight *
+           wavelength_light(tables, light, made_late(band->wavelength), reflector);
 #endif
-  if ((NEPHROID_ATTENUATORS > 0 || HAS_LIGHTS(LIGHT_MESH)) && (losses->any || is_white(reflector)))
-    return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
-  const int row = light * world->scene.cluster_count + band->cluster;
-  return reflected_colour_of(world->tables.reflected_xyz, row * world->scene.reflector_count, reflector);
+  const int cluster = made_late(band->cluster),
+            row = (light * world->scene.cluster_count + cluster) * world->scene.reflector_count;
+  const float4 all = is_white(reflector)
+                         ? members_light(tables, light, tables->cluster_first[cluster],
+                                         tables->cluster_first[cluster + 1], reflector)
+                         : reflected_colour_of(tables->reflected_xyz, row, reflector);
+  return are_coloured(&throughput->own) ? coloured_light(tables, &throughput->own, all, light, &band->own, reflector)
+                                        : part_left(throughput) * all;
 }
 
-// What a path carries of a light of power 1 after its losses. w: the power. xyz: as a reflector sends it.
-IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band,
+// wavelength_light of a source.
+static inline float4 source_wavelength_light(const World* world, Source source, int wavelength, Reflector reflector) {
+  const SpectralTables* tables = &world->tables;
+  if (is_of_environment(world, source.light))
+    return source.rgb.x * wavelength_light(tables, source.light, wavelength, reflector) +
+           source.rgb.y * wavelength_light(tables, source.light + 1, wavelength, reflector) +
+           source.rgb.z * wavelength_light(tables, source.light + 2, wavelength, reflector);
+  return wavelength_light(tables, source.light, wavelength, reflector);
+}
+
+// What a path carries of a light of power 1. w: the power. xyz: as a reflector sends it.
+IN_PLACE float4 carried_light(const World* world, const Throughput* throughput, Source source, const Band* band,
                               Reflector reflector) {
   if (is_of_environment(world, source.light))
-    return source.rgb.x * carried_row(world, losses, source.light, band, reflector) +
-           source.rgb.y * carried_row(world, losses, source.light + 1, band, reflector) +
-           source.rgb.z * carried_row(world, losses, source.light + 2, band, reflector);
-  return carried_row(world, losses, source.light, band, reflector);
+    return source.rgb.x * carried_row(world, throughput, source.light, band, reflector) +
+           source.rgb.y * carried_row(world, throughput, source.light + 1, band, reflector) +
+           source.rgb.z * carried_row(world, throughput, source.light + 2, band, reflector);
+  return carried_row(world, throughput, source.light, band, reflector);
 }
 
 // The share of a row's power that a band begins with.
@@ -37,8 +58,9 @@ static inline float row_share(const World* world, int light, const Band* band) {
   if (band->wavelength >= 0)
     return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
 #endif
-  const Losses none = no_losses();
-  return attenuated_sum(&world->tables, &none, light, band->cluster, white_reflector()).w;
+  const int cluster = made_late(band->cluster);
+  return members_light(&world->tables, light, world->tables.cluster_first[cluster],
+                       world->tables.cluster_first[cluster + 1], white_reflector()).w;
 }
 
 // The share of a light's power that a band begins with. cluster_share: a lamp's share in the whole cluster.
@@ -48,4 +70,21 @@ static inline float band_share(const World* world, Source source, const Band* ba
            source.rgb.y * row_share(world, source.light + 1, band) +
            source.rgb.z * row_share(world, source.light + 2, band);
   return NEPHROID_JITTER && band->wavelength >= 0 ? row_share(world, source.light, band) : cluster_share;
+}
+
+// The share of a light's power that a path began with which ends in this state. share: band_share.
+static inline float share_at_end(const World* world, const Throughput* throughput, Source source, const Band* band,
+                                 float share) {
+  const Throughput full = full_throughput();
+  return is_unsplit(throughput, band) ? carried_light(world, &full, source, band, reflector_of_row(0)).w : share;
+}
+
+// The part of that which is left. Any reflector's row of the tables has the share of a white one as its w.
+static inline float power_left(const World* world, const Throughput* throughput, Source source, const Band* band,
+                               float share) {
+  const bool unsplit = is_unsplit(throughput, band),
+             coloured = are_coloured(unsplit ? &throughput->all : &throughput->own);
+  if (!coloured || (band->wavelength >= 0 && !unsplit)) return part_left(throughput);
+  if (share == 0.0f) return 1.0f; // an environment's, whose colours cancel
+  return carried_light(world, throughput, source, band, reflector_of_row(0)).w / share;
 }

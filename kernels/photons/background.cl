@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end
-// at the environment. A path through glass has one wavelength, unless all go the same way: then it has all of them.
+// at the environment. A path has all wavelengths until glass sends them different ways, then one.
 // 1: the environment is a light. Where it is none, its peaks are not known.
 #ifndef NEPHROID_SKY_IS_LIGHT
 #define NEPHROID_SKY_IS_LIGHT 1
@@ -11,38 +11,30 @@
 #include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"
 
-// 1: no glass disperses light, is coated or has a texture.
-#ifndef NEPHROID_ONE_WAY
-#define NEPHROID_ONE_WAY 0
-#endif
-
-// XYZ of a colour after a path's losses, in single wavelengths or in all of them.
-static inline float3 shown_after(const World* world, const Background* background, float3 rgb, const Losses* losses,
+// XYZ of what a path leaves of a colour: in the wavelength that leads, or in all of them, as coloured_light does.
+static inline float3 shown_after(const Background* background, float3 rgb, const Throughput* throughput,
                                  const Band* band) {
-#if NEPHROID_ONE_WAY
-  if (!losses->any) return background_xyz(background, rgb, WAVELENGTH_COUNT);
-  float3 xyz = (float3)(0.0f);
-  for (int w = 0; w < WAVELENGTH_COUNT; ++w)
-    xyz += wavelength_left(&world->tables, losses, w) * background_xyz(background, rgb, w);
-  return xyz;
-#else
-  return wavelength_left(&world->tables, losses, band->wavelength) * band->weight *
-         background_xyz(background, rgb, band->wavelength);
-#endif
+  if (!is_unsplit(throughput, band))
+    return part_left(throughput) * band->weight * background_xyz(background, rgb, band->wavelength);
+  const Parts* parts = &throughput->all;
+  float3 xyz = parts->middle * background_xyz(background, rgb, WAVELENGTH_COUNT);
+  if (!are_coloured(parts)) return xyz;
+  const float4 weights = band->all.weights * (parts->four - parts->middle);
+  const int4 w = band->all.wavelengths;
+  return xyz + weights.x * background_xyz(background, rgb, w.x) + weights.y * background_xyz(background, rgb, w.y) +
+         weights.z * background_xyz(background, rgb, w.z) + weights.w * background_xyz(background, rgb, w.w);
 }
 
-// What glass or a coat that a path leaves at once reflects of a colour, in all wavelengths. All go the same way. A coat
-// reflects them alike. Of glass the share of bare glass at the mean index counts for all of them, and what this
-// wavelength's differs from it for itself: little where there is no coating.
+// What glass that a path leaves at once reflects of a colour, in all wavelengths. All go the same way. The share of
+// bare glass at the mean index counts for all of them, and what this wavelength's differs from it for itself: little
+// where there is no coating.
 static inline float3 reflected_after(const World* world, const Background* background, float3 rgb, const Band* band,
-                                     float scale, const ScatterSample* first, bool by_coat) {
+                                     float scale, const ScatterSample* first) {
   __global const float* n_of = world->tables.index_of_cluster;
   const float n_i = first->near_material < 0 ? 1.0f : n_of[first->near_material],
               n_t = first->far_material < 0 ? 1.0f : n_of[first->far_material];
   const float cos_i = dot(first->direction, first->normal), cos_t = refracted_cosine(cos_i, n_i / n_t);
-  const float share = by_coat        ? first->reflectance
-                      : cos_t < 0.0f ? 1.0f
-                                     : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
+  const float share = cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
   return scale * share * background_xyz(background, rgb, WAVELENGTH_COUNT) +
          scale * (first->reflectance - share) * band->weight * background_xyz(background, rgb, band->wavelength);
 }
@@ -53,7 +45,6 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
                              float2 place, uint2 seed, uint frame, uint i, uint pixel) {
   const bool reflected = i == 0u;
   const uint sample = frame * PATHS_THROUGH_GLASS + i;
-  const bool by_coat = shows_coat(world, &first);
   Visitor eye = eye_visitor(band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND);
   eye.first_lobes = reflected ? LOBE_REFLECTION : LOBE_TRANSMISSION;
   Hit hit = first;
@@ -70,11 +61,21 @@ IN_PLACE float3 seen_through(const World* world, const Background* background, P
 #else
   const float3 rgb = background_rgb(background, path.direction);
 #endif
-#if !NEPHROID_ONE_WAY
-  if (leaves && reflected && !one_way && !path.losses.any)
-    return reflected_after(world, background, rgb, band, part, &eye.first, by_coat);
-#endif
-  return radiance_scale * shown_after(world, background, rgb, &path.losses, band);
+  if (leaves && reflected && !one_way && path.throughput.is_split && is_full(&path.throughput))
+    return reflected_after(world, background, rgb, band, part, &eye.first);
+  return radiance_scale * shown_after(background, rgb, &path.throughput, band);
+}
+
+// u: in [0, 1), chooses wavelengths by the chances of a path through glass.
+static inline Band band_of_spectrum(__global const float* cdf, float u) {
+  DrawnWavelength drawn[4];
+  for (int i = 0; i < 4; ++i) {
+    drawn[i].wavelength = choose(cdf, WAVELENGTH_COUNT, quarters_on(u, i));
+    drawn[i].weight = 1.0f / (cdf[drawn[i].wavelength] - chance_before(cdf, drawn[i].wavelength));
+  }
+  Band band = one_wavelength(0, drawn[0].wavelength, drawn[0].weight);
+  carry_all(&band, drawn[1], drawn[2], drawn[3], (float4)(1.0f));
+  return band;
 }
 
 // samples: [count], each a pixel and the sample's number there.
@@ -105,10 +106,8 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
     xyz = background_xyz(&background, background_rgb(&background, direction), WAVELENGTH_COUNT);
   else
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
-      const float place =
-          golden_place(launch.seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
-      const int wavelength = choose(spectrum_cdf, WAVELENGTH_COUNT, place);
-      const Band band = {0, wavelength, 1.0f / (spectrum_cdf[wavelength] - chance_before(spectrum_cdf, wavelength))};
+      const float place = golden_place_of_four(launch.seed, frame, i, pixel, STREAM_BACKGROUND_WAVELENGTH);
+      const Band band = band_of_spectrum(spectrum_cdf, place);
       xyz += seen_through(&world, &background, path_from_eye(eye, outwards), first, &band, jitter.xy, launch.seed,
                           frame, i, pixel);
     }

@@ -8,9 +8,10 @@
 
 // The XYZ radiance of a lamp's own surface.
 static inline float3 emitted(const World* world, int light_index, const Path* path, const Band* band) {
+  const Source lamp = source_lamp(light_index);
   const float3 xyz = band->cluster < 0
                          ? world->lights[light_index].as.mesh.xyz.xyz
-                         : carried_light(world, &path->losses, source_lamp(light_index), band, white_reflector()).xyz;
+                         : carried_light(world, &path->throughput, lamp, band, white_reflector()).xyz;
   return xyz * mesh_radiance(world, world->lights + light_index);
 }
 
@@ -29,7 +30,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
                  ? sky.rgb.x * reflected_colour_of(world->reflected_xyz_all, first, reflector).xyz +
                        sky.rgb.y * reflected_colour_of(world->reflected_xyz_all, first + next, reflector).xyz +
                        sky.rgb.z * reflected_colour_of(world->reflected_xyz_all, first + 2 * next, reflector).xyz
-                 : carried_light(world, &path->losses, sky, band, reflector).xyz;
+                 : carried_light(world, &path->throughput, sky, band, reflector).xyz;
       continue;
     }
     if (shines && is_on_lamp(world, l, triangle)) xyz += emitted(world, l, path, band);
@@ -39,7 +40,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
     const float3 reflected =
         band->cluster < 0
             ? reflected_colour_of(world->reflected_xyz_all, l * world->scene.reflector_count, reflector).xyz
-                          : carried_light(world, &path->losses, lamp, band, reflector).xyz;
+                          : carried_light(world, &path->throughput, lamp, band, reflector).xyz;
     xyz += reflected * (irradiance / PI_F);
   }
   return xyz;
@@ -90,17 +91,13 @@ __kernel void direct(WORLD_ARGUMENTS,
     const bool bent = i >= straight;
     const uint number = i - (bent ? straight : 0u), sample = bent ? frame * PATHS_THROUGH_GLASS + number : frame;
     Band band = whole_cluster(-1);
-    SET_ASIDE float probability = 1.0f;
+    float chance = 1.0f;
     if (bent) {
-      const int cluster = choose_cluster(world.cluster_cdf, scene.cluster_count, launch.seed, frame, number,
-                                         PATHS_THROUGH_GLASS,
-                                         pixel, STREAM_CAMERA_CLUSTER);
-      probability = (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)PATHS_THROUGH_GLASS;
-      band =
-          choose_band(&world, scene.light_count, cluster,
-                      random4(launch.seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
+      const float place = golden_place_of_four(launch.seed, frame, number, pixel, STREAM_CAMERA_CLUSTER);
+      band = choose_eye_band(&world, scene.light_count, place, &chance);
     }
-    xyz += follow(&world, way, first, &band, launch.seed, sample, pixel) / probability;
+    xyz += follow(&world, way, first, &band, launch.seed, sample, pixel) /
+           (bent ? chance * (float)PATHS_THROUGH_GLASS : 1.0f);
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
              limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);

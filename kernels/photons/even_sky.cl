@@ -67,12 +67,9 @@ __kernel void even_sky(WORLD_ARGUMENTS, int light_index,
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < BOUNCES; ++i) {
     const uint sample = frame * BOUNCES + i;
-    const int cluster =
-        choose_cluster(world.cluster_cdf, scene.cluster_count, launch.seed, frame, i, BOUNCES, pixel,
-                       STREAM_EVEN_SKY_CLUSTER);
-    const Band band =
-        choose_band(&world, light_index, cluster,
-                    random4(launch.seed, sample, pixel, 0u, STREAM_EVEN_SKY_WAVELENGTH).x);
+    float chance;
+    const float place = golden_place_of_four(launch.seed, frame, i, pixel, STREAM_EVEN_SKY_CLUSTER);
+    const Band band = choose_eye_band(&world, light_index, place, &chance);
     Path way = path_from_eye(eye, outwards);
     Hit end = first;
     Visitor eye = eye_visitor(&band, launch.seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY);
@@ -83,8 +80,8 @@ __kernel void even_sky(WORLD_ARGUMENTS, int light_index,
         even_irradiance(&world, world.lights + light_index, &way, &at.surface, at.triangle, &band, launch.seed, sample,
                         pixel);
     const Source sky = {light_index, irradiance};
-    xyz += carried_light(&world, &way.losses, sky, &band, reflector_at(&world, &at.surface, at.triangle)).xyz *
-           (radiance_scale / (PI_F * (world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster]) * (float)BOUNCES));
+    xyz += carried_light(&world, &way.throughput, sky, &band, reflector_at(&world, &at.surface, at.triangle)).xyz *
+           (radiance_scale / (PI_F * chance * (float)BOUNCES));
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
              limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);

@@ -9,11 +9,6 @@
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
 
-// 1: no glass disperses light, is coated or has a texture.
-#ifndef NEPHROID_ONE_WAY
-#define NEPHROID_ONE_WAY 0
-#endif
-
 #define BANDS 4 // of a path, until glass sends them different ways; then only the first goes on
 
 typedef struct {
@@ -30,7 +25,7 @@ typedef struct {
 
 // Leaves one band, which stands for all of them from now on.
 static inline void divide(Visitor* eye) {
-  if (NEPHROID_ONE_WAY || eye->is_divided) return;
+  if (eye->is_divided) return;
   eye->is_divided = true;
   eye->throughput[0] *= (float)BANDS;
   for (int i = 1; i < BANDS; ++i) eye->throughput[i] = 0.0f;
@@ -42,8 +37,11 @@ static inline float3 brought(const World* world, const Visitor* eye, const Path*
   SET_ASIDE float3 xyz = (float3)(0.0f);
   ROLLED
   for (int i = 0; i < BANDS; ++i)
-    if (eye->throughput[i] > 0.0f)
-      xyz += eye->throughput[i] * carried_light(world, &path->losses, source, &eye->bands[i], reflector).xyz;
+    if (eye->throughput[i] > 0.0f) {
+      Throughput throughput = path->throughput;
+      throughput.own.four.x = number_of_four(throughput.own.four, i);
+      xyz += eye->throughput[i] * carried_light(world, &throughput, source, &eye->bands[i], reflector).xyz;
+    }
   return xyz;
 }
 
@@ -80,7 +78,12 @@ static inline float3 even_light(const World* world, const Visitor* eye, const Pa
   return (float3)(0.0f);
 }
 
-static inline Band visitor_band(const Visitor* eye) { return eye->bands[0]; }
+static inline Band visitor_band(const Visitor* eye) {
+  Band band = eye->bands[0];
+  band.own.wavelengths = (int4)(eye->bands[0].wavelength, eye->bands[1].wavelength, eye->bands[2].wavelength,
+                                eye->bands[3].wavelength);
+  return band;
+}
 
 static inline float4 walk_numbers(const Visitor* eye, int n) {
   return eye_numbers(eye->seed, eye->sample, n < 2 ? eye->paths : 0u, eye->pixel, 1u + (uint)n, STREAM_INDIRECT);
@@ -123,7 +126,7 @@ static inline bool visit_base(const World* world, Visitor* eye, Path* path, cons
 
 static inline bool visit_scatter(const World* world, Visitor* eye, const Path* path, const Interaction* at,
                                  const ScatterSample* sample, int n) {
-  divide(eye);
+  if (path->throughput.is_split) divide(eye);
   for (int i = 0; i < BANDS; ++i) eye->throughput[i] *= sample->n_ratio * sample->n_ratio;
   eye->is_bent = true;
   eye->narrow = eye->narrow || n == 0;

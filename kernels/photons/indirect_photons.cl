@@ -45,8 +45,7 @@ typedef struct {
 } Visitor;
 
 static inline Band visitor_band(const Visitor* photon) {
-  const Band band = {0, photon->wavelength, photon->weight};
-  return band;
+  return one_wavelength(0, photon->wavelength, photon->weight);
 }
 
 static inline Source light_of(const Visitor* photon) {
@@ -84,7 +83,7 @@ static inline void show(const World* world, Visitor* photon, const Path* path, c
 #endif
   if (splat.pixel < 0) return;
   const Band band = visitor_band(photon);
-  const float3 xyz = carried_light(world, &path->losses, light_of(photon), &band, reflector).xyz;
+  const float3 xyz = carried_light(world, &path->throughput, light_of(photon), &band, reflector).xyz;
   const float scale = photon->watts * photon->shading * splat.weight / PI_F;
   if (!film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither))
     ++photon->refused;
@@ -99,7 +98,7 @@ static inline void store(const World* world, Visitor* photon, const Path* path, 
   ++photon->met;
   if (random.x * (float)photon->met >= 1.0f) return;
   const Band band = visitor_band(photon);
-  const float3 xyz = carried_light(world, &path->losses, light_of(photon), &band, reflector).xyz;
+  const float3 xyz = carried_light(world, &path->throughput, light_of(photon), &band, reflector).xyz;
   const float power = photon->watts * photon->shading * shading_ratio(&at->surface, path->direction);
   if (!store_photon(photon->receiver->slot, &at->surface, path->direction, photon->band,
                     photon->receiver->object_count, xyz * power, photon->receiver->stored_scale, random.y))
@@ -110,7 +109,7 @@ static inline void store(const World* world, Visitor* photon, const Path* path, 
 static inline bool stand_for(__global StoredPhoton* slot, uint met) {
   if (met < 2u || slot->group == NO_PHOTON) return true;
   for (int c = 0; c < 3; ++c) {
-    if ((float)slot->xyz[c] * (float)met > PHOTON_LIMIT) {
+    if (fabs((float)slot->xyz[c]) * (float)met > PHOTON_LIMIT) {
       slot->group = NO_PHOTON;
       return false;
     }
@@ -145,7 +144,7 @@ static inline bool visit_base(const World* world, Visitor* photon, Path* path, c
 
 static inline bool visit_scatter(const World* world, Visitor* photon, Path* path, const Interaction* at,
                                  const ScatterSample* sample, int n) {
-  if (!photon->counts && has_coat(&at->material)) lose_to_base(path, &at->material, sample);
+  if (!photon->counts && has_coat(&at->material)) lose_to_base(path, sample);
   photon->counts = true;
   photon->met_glass = photon->met_glass || !photon->met_diffuse;
   return true;
@@ -161,7 +160,7 @@ static inline void choose_wavelength(const World* world, __global const float* c
                                      uint pass, Visitor* photon) {
   __global const int* const first = world->tables.cluster_first;
   const int members = first[world->scene.cluster_count];
-  Band band = wavelength_of_cluster(0, world->tables.cluster_wavelengths, chances, members, random);
+  DrawnWavelength drawn = wavelength_of_cluster(world->tables.cluster_wavelengths, chances, members, random);
 #if NEPHROID_STORE
   const int member = choose(chances, members, random);
   int cluster = 0, part = 0;
@@ -169,13 +168,14 @@ static inline void choose_wavelength(const World* world, __global const float* c
 #if NEPHROID_SHARED_BANDS
   const float before = chance_before(chances, first[cluster]), chance = chances[first[cluster + 1] - 1] - before;
   part = part_of_cluster((random - before) / chance);
-  band = band_of_pass(world, cluster, part, seed, pass);
-  band.weight /= chance;
+  const Band band = band_of_pass(world, cluster, part, seed, pass);
+  drawn.wavelength = band.wavelength;
+  drawn.weight = band.weight / chance;
 #endif
   photon->band = band_number(cluster, part);
 #endif
-  photon->wavelength = band.wavelength;
-  photon->weight = band.weight;
+  photon->wavelength = drawn.wavelength;
+  photon->weight = drawn.weight;
 }
 
 // emitters: one for each light that has photons.
@@ -224,7 +224,7 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     choose_wavelength(&world, spectrum_cdf + emitter.light * members, random.w, launch.seed, launch.iteration,
                       &photon);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 light->inside,    no_losses(),        emission.behind};
+                 light->inside,    full_throughput(),  emission.behind};
     Hit hit;
     Interaction at;
     int last;
@@ -240,7 +240,7 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     const Band band = visitor_band(&photon);
     count_photon(outcomes, outcome, last + 1,
                  photon.watts * band_share(&world, emission.source, &band, 0.0f) * launch.energy_scale,
-                 wavelength_left(&world.tables, &path.losses, photon.wavelength));
+                 part_left(&path.throughput));
   }
   add_outcomes(energy, outcomes);
 }

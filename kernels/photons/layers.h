@@ -5,7 +5,7 @@
 // each reflector that it sees: most have one, those at an edge two. Sums are 64-bit fixed point: [block of LAYER_BLOCK
 // cells][half][layer][cell of the block], so that weighing reads one stretch of memory.
 #include "kernels/photons/layer_types.h"
-#include "kernels/tracing/attenuation.h"
+#include "kernels/tracing/throughput.h"
 #include "kernels/tracing/film.h"
 
 typedef struct {
@@ -49,11 +49,22 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
   return true;
 }
 
-// The fraction that a path's losses leave of a cluster with the same power at all wavelengths: layers know no other.
-static inline float cluster_left(const SpectralTables* tables, const Losses* losses, int cluster) {
-  if (!losses->any) return 1.0f;
-  const int first = tables->cluster_first[cluster], end = tables->cluster_first[cluster + 1];
-  float sum = 0.0f;
-  for (int i = first; i < end; ++i) sum += wavelength_left(tables, losses, tables->cluster_wavelengths[i]);
-  return sum / (float)(end - first);
+// The wavelengths of a path in a cluster with the same power at all wavelengths: layers know no other. u: in [0, 1).
+static inline Band flat_cluster(const SpectralTables* tables, int cluster, float u) {
+  Band band = whole_cluster(cluster);
+#if NEPHROID_LOSSES
+  const int first = tables->cluster_first[cluster], count = tables->cluster_first[cluster + 1] - first;
+  const float size = (float)count;
+  __global const int* wavelengths = tables->cluster_wavelengths + first;
+  band.own.wavelengths = (int4)(wavelengths[min((int)(u * size), count - 1)],
+                                wavelengths[min((int)(quarters_on(u, 1) * size), count - 1)],
+                                wavelengths[min((int)(quarters_on(u, 2) * size), count - 1)],
+                                wavelengths[min((int)(quarters_on(u, 3) * size), count - 1)]);
+#endif
+  return band;
+}
+
+// The part that a path leaves of it.
+static inline float flat_part_left(const Throughput* throughput) {
+  return NEPHROID_LOSSES ? 0.25f * dot(throughput->own.four, (float4)(1.0f)) : 1.0f;
 }

@@ -23,3 +23,11 @@ static inline Band band_of_pass(const World* world, int cluster, int part, uint2
   const float u = ((float)part + within) / (float)NEPHROID_PASS_BANDS;
   return choose_band(world, world->scene.light_count, cluster, u < 0x1.fffffep-1f ? u : 0x1.fffffep-1f);
 }
+
+// Lets another wavelength of its cluster lead a band.
+static inline void lead(Band* band, Band leader) {
+  band->wavelength = leader.wavelength;
+  band->weight = leader.weight;
+  band->own.wavelengths.x = leader.own.wavelengths.x;
+  band->own.weights.x = leader.own.weights.x;
+}

@@ -30,7 +30,7 @@ static inline uint visitor_lobes(const Visitor* photon, const Interaction* at, i
 
 static inline bool visit_scatter(const World* world, Visitor* photon, Path* path, const Interaction* at,
                                  const ScatterSample* sample, int n) {
-  if (!photon->met_caustic_object && has_coat(&at->material)) lose_to_base(path, &at->material, sample);
+  if (!photon->met_caustic_object && has_coat(&at->material)) lose_to_base(path, sample);
   photon->met_caustic_object = true;
   return true;
 }
@@ -40,7 +40,7 @@ static inline bool visit_scatter(const World* world, Visitor* photon, Path* path
 #include "kernels/transport/walk.h"
 
 // Follows a photon in a band to the first matt surface, out of the scene, or to its last surface. Leaves `path` on its
-// last way, with its losses. Does not work out what is left of the photon.
+// last way. Does not work out what is left of the photon.
 static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration,
                                   uint photon) {
   Visitor visitor = {*band, seed, iteration, photon, false, (float4)(0.0f)};
@@ -66,13 +66,11 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
 COMPILED_ONCE PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path,
                                      uint2 seed, uint iteration, uint photon) {
   PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);
-  const bool deposited = end.outcome == OUTCOME_DEPOSITED;
-  if (deposited || path->losses.any) {
-    const Reflector reflector = deposited ? reflector_at(world, &end.surface, end.triangle) : white_reflector();
-    const float4 carried = carried_light(world, &path->losses, source, band, reflector);
-    end.xyz = carried.xyz;
-    if (path->losses.any)
-      end.left = share != 0.0f ? carried.w / share : 1.0f; // an environment's may be 0 where colours cancel
+  if (end.outcome == OUTCOME_DEPOSITED) {
+    const Reflector reflector = reflector_at(world, &end.surface, end.triangle);
+    end.xyz = carried_light(world, &path->throughput, source, band, reflector).xyz;
   }
+  end.share = share_at_end(world, &path->throughput, source, band, share);
+  end.left = power_left(world, &path->throughput, source, band, end.share);
   return end;
 }

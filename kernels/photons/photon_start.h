@@ -11,10 +11,10 @@
 #define NEPHROID_PHOTONS_PER_ITEM 1
 #endif
 
-// Counts the outcome, OUTCOME_*, of a photon of `power` quanta, of which `left` (0..1) came to its end, and its
+// Counts the outcome, OUTCOME_*, of a photon of `power` quanta, of which the part `left` came to its end, and its
 // segments.
 static inline void count_photon(Outcomes outcomes, int outcome, int segments, float power, float left) {
-  const long quanta = convert_long_rte(power), rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
+  const long quanta = convert_long_rte(power), rest = left == 1.0f ? quanta : convert_long_rte((float)quanta * left);
   add_outcome(outcomes, OUTCOME_EMITTED, quanta);
   add_outcome(outcomes, outcome, rest);
   add_outcome(outcomes, OUTCOME_ABSORBED, quanta - rest);
@@ -53,6 +53,7 @@ typedef struct {
   float4 emission;  // in [0, 1): target, direction (2); w: the film's dither
   float2 place;     // in [0, 1): on an area light, or in the environment
   float wavelength; // in [0, 1): chooses a wavelength of its cluster
+  float number;     // in [0, 1): chooses the cluster, too
 } PhotonStart;
 
 // The start of photon `photon` of the batch or pass with the number `iteration`. first_iteration: the first with this
@@ -91,21 +92,46 @@ COMPILED_ONCE PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   __global const DeviceEmitter* const chosen = emitters + start.emitter;
   const float within = (float)(chosen_photon - chosen->first_photon) + (float)(uint)place * 0x1p-32f;
   start.wavelength = clamp(within / (float)chosen->photon_count, 0.0f, 0x1.fffffep-1f);
+  start.number = (float)bits.w * 0x1p-32f;
 #else
-  if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || placed) {
+  if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || NEPHROID_LOSSES || placed) {
     const float4 more = random4(seed, iteration, photon, 1u, STREAM_PHOTONS);
     start.place = more.xy;
     start.wavelength = more.z;
   }
+  start.number = ((float)(photon - emitter.light_first_photon) + start.wavelength) / (float)emitter.light_photon_count;
 #endif
   return start;
 }
+
+#if NEPHROID_JITTER && NEPHROID_UNSPLIT
+// Gives a photon's band the light of all clusters, until the path is split.
+static inline void carry_all_of_light(const World* world, __global const DeviceEmitter* emitters, int emitter_count,
+                                      const PhotonStart* start, Band* band) {
+  const DeviceEmitter emitter = emitters[start->emitter];
+  const uint all = emitter.light_photon_count;
+  DrawnWavelength others[3];
+  float chances[3];
+  for (int i = 0; i < 3; ++i) {
+    const float place = quarters_on(start->number, i + 1) * (float)all;
+    const DeviceEmitter other = emitters[emitter_of(emitters, emitter_count,
+                                                    emitter.light_first_photon + min((uint)place, all - 1u))];
+    const float before = (float)(other.first_photon - emitter.light_first_photon),
+                within = (place - before) / (float)other.photon_count;
+    chances[i] = (float)other.photon_count / (float)all;
+    others[i] = draw_wavelength(world, emitter.light, other.cluster, clamp(within, 0.0f, 0x1.fffffep-1f));
+  }
+  carry_all(band, others[0], others[1], others[2],
+            (float4)((float)emitter.photon_count / (float)all, chances[0], chances[1], chances[2]));
+}
+#endif
 
 // A photon's end: where it ended, and how much of its power was left.
 typedef struct {
   int outcome;     // OUTCOME_*
   int segments;    // rays of its path
-  float left;      // 0..1
+  float share;     // of the light's power that it began with
+  float left;      // part of that, 0..1 in the mean
   Surface surface; // the surface of a deposit
   uint triangle;
   float3 xyz; // for a deposit: reflected light, as if the photon carried the light's whole power

@@ -60,22 +60,30 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     const Emission emission = emit(&world, emitter.light, start.emission, start.place);
     const Source source = emission.source;
     if (emission.watts == 0.0f) continue;
-#if NEPHROID_STORE
     const int part = part_of_cluster(start.wavelength);
-    const Band band = band_of_pass(&world, emitter.cluster, part, launch.seed, launch.map_pass);
-#else
-    const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
+    Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
+#if NEPHROID_STORE && NEPHROID_JITTER
+    lead(&band, band_of_pass(&world, emitter.cluster, part, launch.seed, launch.map_pass));
+#endif
+#if NEPHROID_SPLAT && NEPHROID_JITTER && NEPHROID_UNSPLIT
+    carry_all_of_light(&world, emitters, launch.emitter_count, &start, &band);
 #endif
     SET_ASIDE float share = band_share(&world, source, &band, emitter.share), dither = start.emission.w,
                     wavelength = start.wavelength;
     SET_ASIDE float watts =
         emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 world.lights[emitter.light].inside,    no_losses(),        emission.behind};
+                 world.lights[emitter.light].inside,    full_throughput(),  emission.behind};
     const PhotonEnd end = trace_photon(&world, source, &band, share, &path, launch.seed, batch, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
-      const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
+      float3 xyz = end.xyz;
+      if (is_unsplit(&path.throughput, &band)) { // photons of a map have one wavelength, as paths that gather them
+        Throughput alone = path.throughput;
+        alone.is_split = true;
+        xyz = carried_light(&world, &alone, source, &band, reflector_at(&world, &end.surface, end.triangle)).xyz;
+      }
+      xyz *= watts * shading_ratio(&end.surface, path.direction);
       if (!store_photon(stored + launch.stored_first + place, &end.surface, path.direction,
                         band_number(emitter.cluster, part), launch.object_count, xyz, launch.stored_scale, dither))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
@@ -112,7 +120,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
       add_exactly(guide_moments + emitter.light * GUIDE_CELLS + guided.cell, moment);
     }
 #endif
-    count_photon(outcomes, end.outcome, end.segments, watts * share * launch.energy_scale, end.left);
+    count_photon(outcomes, end.outcome, end.segments, watts * end.share * launch.energy_scale, end.left);
   }
   add_outcomes(energy, outcomes);
 }

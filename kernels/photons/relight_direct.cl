@@ -63,9 +63,10 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     Band band = whole_cluster(-1);
     float weight = 1.0f;
     if (!straight) {
-      band.cluster =
-          choose_cluster(cluster_cdf, all, launch.seed, launch.frame, i, PATHS_THROUGH_GLASS, (uint)pixel,
-                         STREAM_CAMERA_CLUSTER);
+      const int cluster = choose_cluster(cluster_cdf, all, launch.seed, launch.frame, i, PATHS_THROUGH_GLASS,
+                                         (uint)pixel, STREAM_CAMERA_CLUSTER);
+      band = flat_cluster(&world.tables, cluster,
+                          golden_place_of_four(launch.seed, launch.frame, i, (uint)pixel, STREAM_CAMERA_WAVELENGTH));
       weight = 1.0f / ((cluster_cdf[band.cluster + 1] - cluster_cdf[band.cluster]) * (float)PATHS_THROUGH_GLASS);
     }
     Path path = first_way;
@@ -74,7 +75,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     Interaction at;
     weight *= reach_base(&world, &eye, &path, &hit, &at);
     if (weight == 0.0f) continue;
-    if (!straight) weight *= cluster_left(&world.tables, &path.losses, band.cluster);
+    weight *= flat_part_left(&path.throughput);
     const int reflector = at.material.reflector;
     for (int l = 0; l < scene.light_count; ++l) {
       const float radiance = weight *

@@ -25,11 +25,11 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     const DeviceEmitter emitter = emitters[start.emitter];
     const Emission emission = emit(&world, emitter.light, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
-    const Band band = whole_cluster(emitter.cluster);
+    const Band band = flat_cluster(&world.tables, emitter.cluster, start.wavelength);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
-                 world.lights[emitter.light].inside,    no_losses(),        emission.behind};
+                 world.lights[emitter.light].inside,    full_throughput(),  emission.behind};
     const PhotonEnd end = trace_way(&world, &band, &path, launch.seed, launch.iteration, photon);
-    const float left = cluster_left(&world.tables, &path.losses, emitter.cluster);
+    const float left = flat_part_left(&path.throughput);
     if (end.outcome == OUTCOME_DEPOSITED) {
       const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);
       const int reflector = material_of(&world, end.surface.object).reflector,

@@ -13,7 +13,7 @@
 static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band,
                                 int object_count, float3 xyz, float scale, float dither) {
   const float3 quanta = xyz * scale;
-  const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;
+  const bool fits = all(fabs(quanta) <= (float3)(PHOTON_LIMIT));
   StoredPhoton photon;
   photon.group =
       fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, band, object_count) : NO_PHOTON;

@@ -94,8 +94,9 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
 }
 
 // Decides how a deposited photon is splatted: as a streak of its cluster; if that is impossible, with jitter, as a
-// streak of its own wavelength; else as a point. The first choice depends on where the whole cluster's light goes and
-// not on the photon's wavelength, so no light is counted twice or lost where a streak would leave the receiver.
+// streak of its own wavelength; else as a point. A coloured photon's streak is its four wavelengths: of no others it is
+// known what is left. The first choice depends on where the whole cluster's light goes and not on the photon's
+// wavelength, so no light is counted twice or lost where a streak would leave the receiver.
 COMPILED_ONCE Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                  const Band* band) {
 #if NEPHROID_DIFFERENTIALS
@@ -104,7 +105,10 @@ COMPILED_ONCE Stretch stretch_of(const World* world, const DeviceCamera* camera,
     const float4 span = i == 0 ? world->stretch_span[band->cluster] : world->stretch_place[band->wavelength];
     Stretch stretch = {1, i == 0, false};
     if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, STRETCH_SHORTEST, STRETCH_WIDEST,
-                     &stretch)) return stretch;
+                     &stretch)) {
+      if (stretch.whole && stretch.count > 1 && are_coloured(&path->throughput.own)) stretch.count = 4;
+      return stretch;
+    }
   }
 #endif
   const Stretch point = {1, false, false};
@@ -126,7 +130,8 @@ static inline Band stretched_band(const World* world, int light, const Band* pho
   __global const float* cdf = world->tables.wavelength_cdf + light * members + first;
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);
-  const Band band = {photon->cluster, world->tables.cluster_wavelengths[first + member], 1.0f / (cdf[member] - before)};
+  const Band band = one_wavelength(photon->cluster, world->tables.cluster_wavelengths[first + member],
+                                   1.0f / (cdf[member] - before));
   *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f),
                      stretch_origin(world, photon));
   return band;
@@ -151,7 +156,14 @@ COMPILED_ONCE bool strand_of(const World* world, const PhotonEnd* end, const Pat
   turned = turned < 1.0f ? turned : turned - 1.0f;
   float x;
   Band wavelength = *band;
-  if (stretch->whole)
+  Throughput throughput = path->throughput;
+  if (stretch->whole && are_coloured(&throughput.own)) {
+    wavelength = one_wavelength(band->cluster, number_of_four_wavelengths(&band->own, i),
+                                4.0f * number_of_four(band->own.weights, i));
+    throughput.own.four.x = number_of_four(throughput.own.four, i);
+    const float place_there = u * 0x1p12f;
+    x = place_in_tent(world, wavelength.wavelength, place_there - floor(place_there), stretch_origin(world, band));
+  } else if (stretch->whole)
     wavelength = stretched_band(world, source.light, band, turned, &x);
   else
     x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));
@@ -169,7 +181,7 @@ COMPILED_ONCE bool strand_of(const World* world, const PhotonEnd* end, const Pat
   }
   if (NEPHROID_TEXTURES || stretch->whole) {
     const Reflector reflector = reflector_at(world, &strand->surface, strand->triangle);
-    strand->xyz = carried_light(world, &path->losses, source, &wavelength, reflector).xyz;
+    strand->xyz = carried_light(world, &throughput, source, &wavelength, reflector).xyz;
   }
   strand->xyz /= (float)stretch->count;
   return true;

@@ -66,23 +66,13 @@ static inline float3 light_before(const World* world, __global const float* cdf,
 }
 
 // The light of the part low .. high of a cluster's distribution of wavelengths, as PhotonEnd's xyz.
-static inline float3 light_of_part(const World* world, const Losses* losses,
-                                   Source source, int cluster, Reflector reflector, float low, float high) {
+static inline float3 light_of_part(const World* world, Source source, int cluster, Reflector reflector, float low,
+                                   float high) {
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
   __global const float* cdf =
       world->tables.wavelength_cdf + source.light * world->tables.cluster_first[world->scene.cluster_count] + first;
-  float3 xyz = (float3)(0.0f);
-  if (losses->any) {
-    for (int member = choose(cdf, count, low); member < count; ++member) {
-      const float before = chance_before(cdf, member), after = cdf[member];
-      if (before >= high) break;
-      if (after == before) continue;
-      const Band band = {cluster, world->tables.cluster_wavelengths[first + member], 1.0f / (after - before)};
-      xyz += (fmin(after, high) - fmax(before, low)) * carried_light(world, losses, source, &band, reflector).xyz;
-    }
-    return xyz;
-  }
   const bool is_sky = is_of_environment(world, source.light);
+  float3 xyz = (float3)(0.0f);
   for (int row = 0; row < (is_sky ? 3 : 1); ++row) {
     const float of_row = row == 0 ? source.rgb.x : row == 1 ? source.rgb.y : source.rgb.z;
     const float3 of_part =
@@ -92,7 +82,45 @@ static inline float3 light_of_part(const World* world, const Losses* losses,
   }
   return xyz;
 }
+
+// What a path leaves of that, as coloured_light does: each of the four wavelengths counts where it lies in the part.
+static inline float3 part_left_of(const World* world, const Throughput* throughput, const DeviceLattice* lattice,
+                                  Source source, const Band* band, float place, Reflector reflector, float low,
+                                  float high) {
+  float3 xyz = throughput->own.middle * light_of_part(world, source, band->cluster, reflector, low, high);
+  if (!are_coloured(&throughput->own)) return xyz;
+  const float size = lattice->high - lattice->low;
+  for (int i = 0; i < 4; ++i) {
+    const float u = lattice->low + size * quarters_on(place, i);
+    if (u < low || u >= high) continue;
+    const float weight = size * number_of_four(band->own.weights, i) *
+                         (number_of_four(throughput->own.four, i) - throughput->own.middle);
+    xyz += weight * source_wavelength_light(world, source, number_of_four_wavelengths(&band->own, i), reflector).xyz;
+  }
+  return xyz;
+}
 #endif
+
+// Where a photon's four wavelengths lie in its lattice's part of the cluster, in [0, 1).
+static inline float place_of_wavelengths(const DeviceLattice* lattice, uint photon) {
+  return lattice->is_drawn ? (lattice->wavelength - lattice->low) / (lattice->high - lattice->low)
+                           : place_within(photon, 0u).y;
+}
+
+// The band of a photon, which goes the way of its lattice's wavelength.
+static inline Band band_of_tile(const World* world, const DeviceLattice* lattice, uint photon) {
+  Band band = choose_band(world, lattice->light, lattice->cluster, lattice->wavelength);
+#if NEPHROID_LOSSES
+  const float place = place_of_wavelengths(lattice, photon);
+  DrawnWavelength drawn[4];
+  for (int i = 0; i < 4; ++i) {
+    const float u = lattice->low + (lattice->high - lattice->low) * quarters_on(place, i);
+    drawn[i] = draw_wavelength(world, lattice->light, lattice->cluster, fmin(u, 0x1.fffffep-1f));
+  }
+  band.own = carriers_of(drawn[0], drawn[1], drawn[2], drawn[3], band.own.middle);
+#endif
+  return band;
+}
 
 // Whether a cell of the lattice is wider than the triangle that its middle meets.
 static inline bool spans_triangles(const Geometry* geometry, uint primitive, const Differential* by_place, float size) {
@@ -157,7 +185,7 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
   stretched_band(world, source.light, band, fmin(lattice->high, 0x1.fffffep-1f), &to_x);
   if (!stretch_over(world, camera, end, path, from_x, to_x, SWEEP_SHORTEST, SWEEP_WIDEST, &sweep)) {
     sweep.count = 1;
-    if (lattice->is_drawn) strand.xyz = carried_light(world, &path->losses, source, band, reflector).xyz;
+    if (lattice->is_drawn) strand.xyz = carried_light(world, &path->throughput, source, band, reflector).xyz;
   }
 #endif
   bool fits = true;
@@ -188,8 +216,8 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
     if (!touches_film(camera, &f)) continue;
 #if NEPHROID_DIFFERENTIALS
     if (sweep.count > 1 || lattice->high - lattice->low < 1.0f)
-      strand.xyz = light_of_part(world, &path->losses, source, band->cluster, reflector, low,
-                                 low + part);
+      strand.xyz = part_left_of(world, &path->throughput, lattice, source, band, place_of_wavelengths(lattice, photon),
+                                reflector, low, low + part);
 #endif
     const SeenReceiver receiver = seen_receiver(camera, film->views, &strand.surface, strand.triangle, side);
     const float3 xyz = strand.xyz * (watts * weight * shading_ratio(&strand.surface, path->direction) / PI_F);
@@ -288,7 +316,7 @@ static inline void start_branch(Branch* branch, const Emission* emission, Media 
   branch->path.direction = emission->direction;
   branch->path.skip = NEPHROID_NO_PRIMITIVE;
   branch->path.media = inside;
-  branch->path.losses = no_losses();
+  branch->path.throughput = full_throughput();
   branch->path.behind = emission->behind;
   branch->path.differential.position = branch->path.differential.direction = (float3)(0.0f);
   branch->weight = branch->stands = 1.0f;
@@ -320,12 +348,13 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int
         emit_on_lattice(&world, lattice.light, lattice.target, disc, place, tile.branch.path.by_place);
     const Source source = emission.source;
     if (emission.watts == 0.0f) continue;
-    const Band band = choose_band(&world, lattice.light, lattice.cluster, lattice.wavelength);
-    const Band whole = whole_cluster(lattice.cluster);
-    const Losses none = no_losses();
+    const Band band = band_of_tile(&world, &lattice, photon);
+    Band whole = band;
+    whole.wavelength = -1;
+    const Throughput full = full_throughput();
     // Any reflector's row of the table has the share as w.
     const float power_share = is_of_environment(&world, lattice.light)
-                                  ? carried_light(&world, &none, source, &whole, reflector_of_row(0)).w
+                                  ? carried_light(&world, &full, source, &whole, reflector_of_row(0)).w
                                   : lattice.share,
                 watts = emission.watts / lattice.photons;
     const TileFilm to_film = {views,
@@ -352,16 +381,12 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int
                       : deposited      ? OUTCOME_DEPOSITED
                       : met            ? OUTCOME_ESCAPED
                                        : OUTCOME_MISSED;
-        end.left = 1.0f;
+        const Throughput* throughput = &branch->path.throughput;
+        end.left = power_left(&world, throughput, source, &whole, power_share);
         if (deposited) {
           end.surface = at.surface;
           end.triangle = at.triangle;
-        }
-        if (deposited || branch->path.losses.any) {
-          const Reflector reflector = deposited ? reflector_of_tile(&world, &end.surface) : white_reflector();
-          const float4 carried = carried_light(&world, &branch->path.losses, source, &whole, reflector);
-          end.xyz = carried.xyz;
-          if (branch->path.losses.any && power_share != 0.0f) end.left = carried.w / power_share;
+          end.xyz = carried_light(&world, throughput, source, &whole, reflector_of_tile(&world, &end.surface)).xyz;
         }
         const float carried_watts = watts * branch->weight * branch->stands;
         if (deposited &&

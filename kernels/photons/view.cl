@@ -6,27 +6,23 @@
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/eye_walk.h"
 
-// The factors of X, Y and Z by which a path's losses reduce the light that it brings to the eye. A single wavelength
-// has its own. Photons of a whole cluster carry a sum over its wavelengths, to which losses can no longer be applied
-// one by one. They get the mean over the cluster, weighted by the lights as the surface reflects them; that is exact
-// where no photon has had losses of its own.
-static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, Reflector reflector) {
-  float3 part = (float3)(1.0f);
-#if NEPHROID_ATTENUATORS > 0
-  if (!losses->any) return part;
-#if NEPHROID_JITTER
-  if (band->wavelength >= 0) return part * wavelength_left(&world->tables, losses, band->wavelength);
-#endif
-  const Losses none = no_losses();
+// The factors of X, Y and Z by which a path reduces the light that it brings to the eye. A single wavelength has its
+// own. Photons of a whole cluster carry a sum over its wavelengths, of which each can no longer be reduced for itself.
+// They get the mean over the cluster, weighted by the lights as the surface reflects them; that is exact where nothing
+// has coloured a photon.
+static inline float3 transmittance(const World* world, const Throughput* throughput, const Band* band,
+                                   Reflector reflector) {
+  float3 part = (float3)(part_left(throughput));
+  if (!are_coloured(&throughput->own) || (NEPHROID_JITTER && band->wavelength >= 0)) return part;
+  const Throughput full = full_throughput();
   float3 left = (float3)(0.0f), all = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
-    left += world->lights[l].radiometric * carried_light(world, losses, mean_source(world, l), band, reflector).xyz;
-    all += world->lights[l].radiometric * carried_light(world, &none, mean_source(world, l), band, reflector).xyz;
+    left += world->lights[l].radiometric * carried_light(world, throughput, mean_source(world, l), band, reflector).xyz;
+    all += world->lights[l].radiometric * carried_light(world, &full, mean_source(world, l), band, reflector).xyz;
   }
   part.x = all.x > 0.0f ? left.x / all.x : 0.0f;
   part.y = all.y > 0.0f ? left.y / all.y : 0.0f;
   part.z = all.z > 0.0f ? left.z / all.z : 0.0f;
-#endif
   return part;
 }
 
@@ -50,7 +46,7 @@ COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, bool refl
   const Reflector reflector = reflector_at(world, &at.surface, at.triangle);
   point.position = (float4)(at.surface.position, 0.0f);
   point.normal = (float4)(at.surface.geometric, 0.0f);
-  point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.losses, band, reflector), 0.0f);
+  point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.throughput, band, reflector), 0.0f);
   point.group = photon_group(at.surface.object, dot(path.direction, at.surface.geometric) < 0.0f,
                              band_number(band->cluster, part), object_count);
   return point;
@@ -85,7 +81,11 @@ __kernel void view(WORLD_ARGUMENTS, __global VisiblePoint* points, DeviceCamera 
     }
     if (cluster >= 0) {
       const int part = part_of_cluster(jitter.w);
+#if NEPHROID_JITTER
       const Band band = band_of_pass(&world, cluster, part, launch.seed, launch.pass);
+#else
+      const Band band = choose_band(&world, scene.light_count, cluster, jitter.w);
+#endif
       point = see(&world, path, hit, reflected, &band, part, weight * (float)NEPHROID_PASS_BANDS,
                   launch.object_count, launch.seed, launch.sample, pixel);
     }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a metal reflects: Fresnel's equations with a complex index n + i k (Born and Wolf, Principles of Optics, 14.2).
-// It depends on angle and wavelength, and a path may stand for many wavelengths. So a metal has CONDUCTOR_TERMS rows of
-// losses (attenuation.h): -ln R(angle, wavelength) is nearly the sum over j of a_j(wavelength) times -ln R_j(angle),
-// the exact loss at one wavelength each. app/optics/conductor.h chooses these wavelengths and a_j, and says the error.
+// What a metal reflects: Fresnel's equations with a complex index n + i k (Born and Wolf, Principles of Optics, 14.2),
+// at each of the wavelengths that carry the path's light.
 #include "kernels/scatter/interaction.h"
 
 // Mean of the reflectances of both polarisations. n, k: of the metal, over the index of the medium before it.
@@ -16,18 +14,37 @@ static inline float conductor_reflectance(float cos_i, float n, float k) {
   return 0.5f * s * (1.0f + (both - across) / (both + across));
 }
 
+// At a wavelength. around: the material before it; -1: air.
+static inline float conductor_part(const World* world, const DeviceMaterial* material, const Band* band, int around,
+                                   float cos_i, int wavelength) {
+  __global const float* n_and_k = world->tables.surface_data + material->surface_first + 2 * wavelength;
+  const Band one = one_wavelength(band->cluster, band->wavelength < 0 ? -1 : wavelength, 1.0f);
+  const float n_near = around < 0 ? 1.0f : index_of_band(world, &one)[around];
+  return conductor_reflectance(cos_i, n_and_k[0] / n_near, n_and_k[1] / n_near);
+}
+
+static inline Parts conductor_parts(const World* world, const DeviceMaterial* material, const Band* band, int around,
+                                    float cos_i, const Carriers* carriers) {
+  const int4 w = carriers->wavelengths;
+  const Parts parts = {(float4)(conductor_part(world, material, band, around, cos_i, w.x),
+                                conductor_part(world, material, band, around, cos_i, w.y),
+                                conductor_part(world, material, band, around, cos_i, w.z),
+                                conductor_part(world, material, band, around, cos_i, w.w)),
+                       conductor_part(world, material, band, around, cos_i, carriers->middle)};
+  return parts;
+}
+
 static inline bool conductor_scatter(const World* world, Path* path, const Interaction* at, const Band* band, float u,
                                      ScatterSample* sample) {
   *sample = reflect_at(path->direction, &at->surface, 1.0f, 1.0f);
   sample->reflectance = 1.0f;
-  const int around = medium_object(&path->media, world->objects);
-  const float n_near = around < 0 ? 1.0f : index_of_band(world, band)[world->objects[around].material];
+#if NEPHROID_LOSSES
+  const int object = medium_object(&path->media, world->objects),
+            around = object < 0 ? -1 : world->objects[object].material;
   const float cos_i = -dot(path->direction, sample->normal);
-  __global const float* terms = world->tables.surface_data + at->material.surface_first; // n and k of each
-  for (int j = 0; j < CONDUCTOR_TERMS; ++j) {
-    const float reflectance = conductor_reflectance(cos_i, terms[2 * j] / n_near, terms[2 * j + 1] / n_near);
-    lose(&path->losses, at->material.attenuator + j, -log(fmax(reflectance, 1e-30f)));
-  }
+  LEAVE_BY_WAVELENGTH(&path->throughput, band,
+                      conductor_parts(world, &at->material, band, around, cos_i, carriers))
+#endif
   return true;
 }
 

@@ -82,17 +82,32 @@ static inline ScatterSample scatter_at_pane(float3 direction, const Surface* sur
   return sample;
 }
 
-// Takes away what a tint keeps of light that passes.
-static inline void lose_by_tint(const World* world, Path* path, const Interaction* at, const Band* band) {
+static inline Parts reflectance_parts(const SpectralTables* tables, Reflector reflector, const Carriers* carriers) {
+  const int4 w = carriers->wavelengths;
+  const Parts parts = {(float4)(reflectance_of(tables, reflector, w.x), reflectance_of(tables, reflector, w.y),
+                                reflectance_of(tables, reflector, w.z), reflectance_of(tables, reflector, w.w)),
+                       reflectance_of(tables, reflector, carriers->middle)};
+  return parts;
+}
+
+// Leaves what a tint lets pass.
+static inline void pass_tint(const World* world, Path* path, const Interaction* at, const Band* band) {
 #if NEPHROID_TINTS
-  lose(&path->losses, at->material.tint, 1.0f);
+  attenuate(&world->tables, &path->throughput, band, at->material.tint, 1.0f);
 #if NEPHROID_TINT_TEXTURES
   if (at->material.texture >= 0) {
-    const float part = tint_at(world, at, max(band->wavelength, 0)); // as coating_of
-    lose(&path->losses, at->material.masking, part > 0.0f ? -log(part) : LOSES_ALL);
+    const Reflector tint = tint_at(world, at);
+    LEAVE_BY_WAVELENGTH(&path->throughput, band, reflectance_parts(&world->tables, tint, carriers))
   }
 #endif
 #endif
+}
+
+// Says that a path has met a surface between these materials, which reflects or bends each wavelength otherwise.
+static inline void split(const World* world, Path* path, int near_material, int far_material) {
+  path->throughput.is_split = path->throughput.is_split ||
+                              (near_material >= 0 && world->materials[near_material].parts_wavelengths) ||
+                              (far_material >= 0 && world->materials[far_material].parts_wavelengths);
 }
 
 static inline bool dielectric_scatter(const World* world, Path* path, const Interaction* at, const Band* band, float u,
@@ -105,7 +120,8 @@ static inline bool dielectric_scatter(const World* world, Path* path, const Inte
     *sample = scatter_at_pane(path->direction, surface, index_of_object(around, world->objects, n_of),
                               n_of[world->objects[surface->object].material], u);
     sample->near_material = sample->far_material = material_number(world, around);
-    if (sample->transmitted) lose_by_tint(world, path, at, band);
+    split(world, path, sample->near_material, material_number(world, surface->object));
+    if (sample->transmitted) pass_tint(world, path, at, band);
     return true;
   }
 #endif
@@ -122,10 +138,12 @@ static inline bool dielectric_scatter(const World* world, Path* path, const Inte
     *sample = scatter_at(path->direction, surface, sides.n_near, sides.n_far, coating, u);
   sample->near_material = material_number(world, sides.near_object);
   sample->far_material = material_number(world, sides.far_object);
+  if (sides.near_object != sides.far_object)
+    split(world, path, sample->near_material, sample->far_material);
   if (!sample->transmitted) return true;
   path->media = sides.beyond;
   sample->n_ratio = sides.n_near / sides.n_far;
-  if (sample->near_material != sample->far_material) lose_by_tint(world, path, at, band);
+  if (sample->near_material != sample->far_material) pass_tint(world, path, at, band);
   return true;
 }
 

@@ -6,7 +6,7 @@ static inline bool mirror_scatter(const World* world, Path* path, const Interact
                                   ScatterSample* sample) {
   *sample = reflect_at(path->direction, &at->surface, 1.0f, 1.0f);
   sample->reflectance = 1.0f;
-  lose(&path->losses, at->material.attenuator, 1.0f);
+  attenuate(&world->tables, &path->throughput, band, at->material.attenuator, 1.0f);
   return true;
 }
 

@@ -99,8 +99,8 @@ static inline bool sample_scatter(const World* world, Path* path, const Interact
   if (!scatter_polished(world, path, &at_microfacet, band, u, sample)) return false;
   if (sample->straight) return true;
   // scatter_at takes the triangle's own normal where the microfacet sends the path to the wrong side.
-  const float left = any(sample->normal != m) ? 0.0f : unmasked(path->direction, sample, n, at->material.alpha);
-  lose(&path->losses, at->material.masking, left > 0.0f ? -log(left) : LOSES_ALL);
+  leave_part(&path->throughput,
+             any(sample->normal != m) ? 0.0f : unmasked(path->direction, sample, n, at->material.alpha));
   return true;
 }
 
@@ -130,6 +130,6 @@ static inline float evaluate_scatter(const World* world, Path* path, const Inter
 }
 
 // Takes from a path that a coat has reflected what would have passed it.
-static inline void lose_to_base(Path* path, const DeviceMaterial* material, const ScatterSample* sample) {
-  lose(&path->losses, material->masking, sample->reflectance > 0.0f ? -log(sample->reflectance) : LOSES_ALL);
+static inline void lose_to_base(Path* path, const ScatterSample* sample) {
+  leave_part(&path->throughput, sample->reflectance);
 }

@@ -111,12 +111,12 @@ static inline DeviceMaterial material_at(const World* world, const Surface* surf
 }
 
 #if NEPHROID_TINT_TEXTURES
-// The part of light of a wavelength that passes a dielectric with a texture of its tint.
-static inline float tint_at(const World* world, const Interaction* at, int wavelength) {
+// What a dielectric with a texture of its tint lets pass, as what a reflector reflects.
+static inline Reflector tint_at(const World* world, const Interaction* at) {
   Reflector tint = reflector_of_row(at->material.reflector);
   tint.is_textured = true;
   tint.rgb = texture_at(world, at->material.texture, &at->surface, at->triangle);
-  return reflectance_of(&world->tables, tint, wavelength);
+  return tint;
 }
 #endif
 

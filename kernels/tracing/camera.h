@@ -25,7 +25,7 @@ static inline DeviceCamera through_lens(const DeviceCamera* camera, float2 lens)
 
 // direction: unit, along forward + x right + y up, so its derivative by x is (right - (right.D) D) (forward.D).
 static inline Path path_from_eye(const DeviceCamera* camera, float3 direction) {
-  Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
+  Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, full_throughput(), 0.0f};
 #if NEPHROID_PLACE_DIFFERENTIALS
   const float along = dot(direction, camera->forward.xyz);
   const float3 right = camera->right.xyz, up = camera->up.xyz;
@@ -84,6 +84,12 @@ static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, 
   const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;
   const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;
   return (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
+}
+
+// The same for paths that carry four wavelengths, a quarter apart each: the sixteen of a sample's four paths are even.
+static inline float golden_place_of_four(uint2 seed, uint frame, uint path, uint pixel, uint stream) {
+  const float place = golden_place(seed, frame, 0u, 1u, pixel, stream) + (float)(5u * path % 16u) * 0.0625f;
+  return place < 1.0f ? place : place - 1.0f;
 }
 
 // The cluster of a path. cdf: [cluster + 1], the first 0.

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path's last way: where it goes, what encloses it, what its light has lost.
+// A path's last way: where it goes, what encloses it, what is left of its light.
 #include "kernels/tracing/world.h"
-
-// 0: splats are points, and all of this compiles to nothing.
-#ifndef NEPHROID_DIFFERENTIALS
-#define NEPHROID_DIFFERENTIALS 1
-#endif
 
 // 1: paths carry how they move with the place in the lattice or in the pixel that they start from.
 #ifndef NEPHROID_PLACE_DIFFERENTIALS
@@ -16,7 +11,7 @@ typedef struct {
   float3 origin, direction;
   uint skip;   // the triangle that the path leaves
   Media media; // the media that enclose it
-  Losses losses;
+  Throughput throughput;
   float behind; // the path begins this far behind `origin` (Emission); 0 after its first hit
   Differential differential;
 #if NEPHROID_PLACE_DIFFERENTIALS
@@ -39,12 +34,12 @@ static inline bool is_blocked(const World* world, float3 from, float3 direction,
   return any_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, from, direction, distance, skip);
 }
 
-// Adds the absorption of the medium that the path crosses up to its next hit, `distance` from its origin.
-static inline void lose_in_medium(const World* world, Path* path, float distance) {
-#if NEPHROID_ATTENUATORS > 0
+// Absorption in the medium that the path crosses up to its next hit, `distance` from its origin.
+static inline void cross_medium(const World* world, Path* path, const Band* band, float distance) {
+#if NEPHROID_LOSSES
   const int medium = medium_object(&path->media, world->objects);
   if (medium >= 0)
-    lose(&path->losses, material_of(world, medium).attenuator,
-         (path->behind + distance) * world->scene.metres_per_unit);
+    attenuate(&world->tables, &path->throughput, band, material_of(world, medium).attenuator,
+              (path->behind + distance) * world->scene.metres_per_unit);
 #endif
 }

@@ -18,7 +18,6 @@
 #define STREAM_EVEN_SKY 18u              // even_sky.cl, here and below: index is the pixel
 #define STREAM_EVEN_SKY_BOUNCE 19u
 #define STREAM_EVEN_SKY_CLUSTER 20u
-#define STREAM_EVEN_SKY_WAVELENGTH 21u
 #define STREAM_INDIRECT 22u              // indirect.cl, here and below: index is the pixel
 #define STREAM_INDIRECT_BAND 23u         // where a pixel starts in the spectrum
 #define STREAM_SURVEY 24u                // relight_direct.cl, its survey: index is the pixel

@@ -30,8 +30,8 @@
   TABLE(float, index_of_wavelength, "index of refraction of each wavelength") /* [401][material] */ \
   TABLE(float, wavelength_cdf, "choice of a wavelength") /* [light, then all][of cluster_wavelengths]: band.h */ \
   TABLE(float, coefficient, "attenuation") /* [attenuator][401]: 1/m; mirror: -ln(reflectance); \
-    tint: -ln(what passes); metal: scatter/conductor.h */ \
-  TABLE(float, surface_data, "surfaces of materials") /* metal: n, k of each term (scatter/conductor.h); \
+    tint: -ln(what passes) */ \
+  TABLE(float, surface_data, "surfaces of materials") /* metal: [401] n, k; \
     coating: [401] its index of refraction; plastic: COAT_PARTS + COAT_COSINES items */ \
   TABLE(float, reflectance, "reflectance") /* [reflector][401] */ \
   TABLE(float4, light_xyz, "light spectra") /* [row][401]: share * (xbar, ybar, zbar), share */ \

@@ -49,9 +49,6 @@ struct alignas(8) uint2 {
 #define OUTCOME_SEGMENTS 7  // a plain count: rays that the photons' paths are made of
 #define OUTCOME_COUNT 8
 
-// The rows of losses that a metal has: scatter/conductor.h.
-#define CONDUCTOR_TERMS 3
-
 // What the table surface_data has of a plastic's coat (scatter/plastic.h): its index of refraction, the part of light
 // from all sides that passes it; then the part that passes it by the cosine of the way, at COAT_COSINES cosines from 0
 // to 1.
@@ -63,16 +60,16 @@ typedef struct {
   int type;            // MATERIAL_*
   int reflector;       // matt, tint with a texture: row of the reflectance tables; with a texture its red, green and
                        // blue rows follow
-  int attenuator;      // absorbing dielectric, mirror, metal: (first) row of the attenuation table; -1: none
+  int attenuator;      // absorbing dielectric, mirror: row of the attenuation table; -1: none
   int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none, or a texture
   int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none
   float coating_nm;    // dielectric: thickness of its coating
   int is_thin;         // dielectric: a pane without thickness
   float alpha;         // of GGX (scatter/microfacet.h); 0: polished
-  int masking;         // rough, plastic, tint with a texture: row of the attenuation table, 1 at all wavelengths
   int texture;         // of its reflectance or tint: number of a texture (scatter/texture.h); -1: none
   int roughness_texture; // the same of its roughness
   int normal_map;        // the same of its normals
+  int parts_wavelengths; // dielectric: its surface bends or reflects each wavelength otherwise
 } DeviceMaterial;
 
 typedef struct {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // All of the scene that a path meets, in one struct.
-#include "kernels/tracing/attenuation.h"
-#include "kernels/tracing/band.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/registers.h"
 #include "kernels/lights/sky.h"
 #include "kernels/tracing/surface.h"
+#include "kernels/tracing/throughput.h"
+
+// 0: splats are points, and the differentials of wavelengths compile to nothing.
+#ifndef NEPHROID_DIFFERENTIALS
+#define NEPHROID_DIFFERENTIALS 1
+#endif
 
 typedef struct {
   Geometry geometry;
@@ -40,15 +44,56 @@ static inline __global const float* index_of_band(const World* world, const Band
   return world->tables.index_of_cluster + band->cluster * world->scene.material_count;
 }
 
-// The band of a path in a cluster. light: where its light comes from, or light_count for a path that any light may
-// reach. u: in [0, 1), picks a wavelength by the worth of the light (app/tracing/scales.h).
-COMPILED_ONCE Band choose_band(const World* world, int light, int cluster, float u) {
-#if NEPHROID_JITTER
+// A wavelength of a cluster, by the worth of the light (app/tracing/scales.h). light: where it comes from, or
+// light_count for a path that any light may reach. u: in [0, 1).
+COMPILED_ONCE DrawnWavelength draw_wavelength(const World* world, int light, int cluster, float u) {
   const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
   const int members = world->tables.cluster_first[world->scene.cluster_count];
-  return wavelength_of_cluster(cluster, world->tables.cluster_wavelengths + first,
+  return wavelength_of_cluster(world->tables.cluster_wavelengths + first,
                                world->tables.wavelength_cdf + light * members + first, count, u);
-#else
-  return whole_cluster(cluster);
+}
+
+// The band of a path in a cluster. light, u: as in draw_wavelength.
+static inline Band choose_band(const World* world, int light, int cluster, float u) {
+  Band band = whole_cluster(cluster);
+#if NEPHROID_JITTER || NEPHROID_LOSSES
+  const DrawnWavelength leader = draw_wavelength(world, light, cluster, u);
+#if NEPHROID_JITTER
+  band = one_wavelength(cluster, leader.wavelength, leader.weight);
 #endif
+#if NEPHROID_LOSSES && (!NEPHROID_JITTER || NEPHROID_DIFFERENTIALS)
+  const int first = world->tables.cluster_first[cluster], end = world->tables.cluster_first[cluster + 1];
+  band.own = carriers_of(leader, draw_wavelength(world, light, cluster, quarters_on(u, 1)),
+                         draw_wavelength(world, light, cluster, quarters_on(u, 2)),
+                         draw_wavelength(world, light, cluster, quarters_on(u, 3)),
+                         world->tables.cluster_wavelengths[(first + end) / 2]);
+#endif
+#endif
+  return band;
+}
+
+// The cluster of a path from the eye, by its chance in cluster_cdf. place: in [0, 1). *within: where it lies there.
+static inline int cluster_at(const World* world, float place, float* chance, float* within) {
+  const int cluster = choose(world->cluster_cdf + 1, world->scene.cluster_count, place);
+  const float before = world->cluster_cdf[cluster];
+  *chance = world->cluster_cdf[cluster + 1] - before;
+  *within = clamp((place - before) / *chance, 0.0f, 0x1.fffffep-1f);
+  return cluster;
+}
+
+// The band of a path from the eye. light: as in draw_wavelength. place: in [0, 1). *chance: its cluster's.
+static inline Band choose_eye_band(const World* world, int light, float place, float* chance) {
+  float within;
+  const int cluster = cluster_at(world, place, chance, &within);
+  Band band = choose_band(world, light, cluster, within);
+#if NEPHROID_JITTER && NEPHROID_UNSPLIT
+  DrawnWavelength others[3];
+  float chances[3];
+  for (int i = 0; i < 3; ++i) {
+    const int other = cluster_at(world, quarters_on(place, i + 1), chances + i, &within);
+    others[i] = draw_wavelength(world, light, other, within);
+  }
+  carry_all(&band, others[0], others[1], others[2], (float4)(*chance, chances[0], chances[1], chances[2]));
+#endif
+  return band;
 }

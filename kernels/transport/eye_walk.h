@@ -78,7 +78,7 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
   if (part == 0.0f || is_hidden(world, surface, start_on_side(surface, light_side), &arrival, at->triangle))
     return (float3)(0.0f);
   const Source lamp = {light_index, (float3)(1.0f)};
-  return carried_light(world, &scattered.losses, lamp, band, white_reflector()).xyz * (arrival.irradiance * part);
+  return carried_light(world, &scattered.throughput, lamp, band, white_reflector()).xyz * (arrival.irradiance * part);
 }
 
 // The same of all lamps on both sides, where the surface is rough.

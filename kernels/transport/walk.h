@@ -34,7 +34,8 @@ IN_PLACE int walk(const World* world, Visitor* visitor, Path* path, Hit* hit, bo
 #endif
     if (hit->primitive == NEPHROID_NO_PRIMITIVE) return WALK_LEFT;
     *at = interaction_at(world, *hit);
-    lose_in_medium(world, path, hit->t);
+    const Band band = visitor_band(visitor);
+    cross_medium(world, path, &band, hit->t);
 #ifdef WALK_SURFACES
     visit_surface(world, visitor, path, at, n);
 #endif
@@ -55,7 +56,6 @@ IN_PLACE int walk(const World* world, Visitor* visitor, Path* path, Hit* hit, bo
     if (lobes == 0u || n == world->scene.max_surfaces) return WALK_LOST;
     if (lobes == LOBE_DIFFUSE) continue;
     ScatterSample sample;
-    const Band band = visitor_band(visitor);
     if (!scatter_path(world, path, at, &band, lobes, numbers, &sample)) return WALK_LOST;
 #ifdef WALK_SCATTERS
     if (!visit_scatter(world, visitor, path, at, &sample, n)) return WALK_DROPPED;

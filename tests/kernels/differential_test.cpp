@@ -25,7 +25,7 @@ __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const
   const World world = WORLD;
   const uint i = work_item();
   if (i >= count) return;
-  Path path = {vload3(2 * i, rays), vload3(2 * i + 1, rays), NEPHROID_NO_PRIMITIVE, {0}, no_losses(), 0.0f};
+  Path path = {vload3(2 * i, rays), vload3(2 * i + 1, rays), NEPHROID_NO_PRIMITIVE, {0}, full_throughput(), 0.0f};
   const Band band = whole_cluster(clusters[i]);
   lengths[i] = 0;
   for (int step = 0; step < STEPS; ++step) {

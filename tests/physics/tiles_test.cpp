@@ -22,6 +22,14 @@ double light_of(const job::Snapshot& snapshot) {
   return std::accumulate(y.begin(), y.end(), 0.0);
 }
 
+/// Linear sRGB of all pixels together.
+std::array<double, 3> colour_of(const job::Snapshot& snapshot) {
+  std::array<double, 3> sum{};
+  const std::vector<float> rgb = layer(snapshot, "caustic").rgb;
+  for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += rgb[i];
+  return sum;
+}
+
 double mean_square(const std::vector<double>& figure, double truth) {
   double sum = 0;
   for (const double f : figure) sum += (f - truth) * (f - truth);
@@ -160,6 +168,15 @@ preset::Preset of_unlike_lamps() {
   return p;
 }
 
+/// Nothing disperses, so that all wavelengths are one cluster, and glass leaves of each another part.
+preset::Preset through_a_red_tint() {
+  preset::Preset p = on_a_floor();
+  p.scene.materials["glass"].tint.type = preset::Reflectance::Type::patch;
+  p.scene.materials["glass"].tint.patch = "red";
+  p.scene.lights[0].spectrum = {.illuminant = "D65"};
+  return p;
+}
+
 preset::Preset within_a_round() {
   preset::Preset p = of_unlike_lamps();
   p.stop.passes = 5;
@@ -192,6 +209,9 @@ TEST_P(TilesAndPoints, SendTheSameLight) {
   record(GetParam().name + ": light by tiles over light by points", light_of(tiles) / light_of(points), 1,
          GetParam().most);
   EXPECT_NEAR(light_of(tiles) / light_of(points), 1, GetParam().most);
+  const std::array<double, 3> colour = colour_of(tiles), true_colour = colour_of(points);
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(colour[c], true_colour[c], GetParam().most * std::ranges::max(true_colour)) << c;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -200,7 +220,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"low_camera", with_few_photons_and_a_low_camera, 0.1}, Case{"wedge", through_a_wedge, 0.01},
                     Case{"panel", of_a_panel, 0.04}, Case{"spot", of_a_narrow_spot, 0.01},
                     Case{"plates", through_plates_at_grazing_incidence, 0.02},
-                    Case{"unlike_lamps", of_unlike_lamps, 0.02}, Case{"within_a_round", within_a_round, 0.02}),
+                    Case{"unlike_lamps", of_unlike_lamps, 0.02}, Case{"within_a_round", within_a_round, 0.02},
+                    Case{"tint", through_a_red_tint, 0.01}),
     [](const auto& c) { return c.param.name; });
 
 TEST(Tiles, AreAsBrightInOneImageAsInTwoHalves) {

@@ -23,7 +23,9 @@ preset::Preset dispersing_ball(bool absorbing) {
     p.scene.materials["mirror"] = mirror(0.5);
     p.scene.materials["mirror"].reflectance.type = preset::Reflectance::Type::patch;
     p.scene.materials["mirror"].reflectance.patch = "orange";
+    p.scene.materials["gold"] = check::conductor("gold");
     p.scene.objects.push_back(object("mirror", quad(1, 1), "mirror", at({0.8, 0.05, 0})));
+    p.scene.objects.push_back(object("gold", quad(1, 1), "gold", at({-0.8, 0.05, 0})));
   }
   spectral::settings(p).photons_per_pass = 1 << 13;
   spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
@@ -79,7 +81,7 @@ TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, WavelengthJitter, testing::Bool(),
-                         [](const auto& test) { return test.param ? "WithColouredMirror" : "Glass"; });
+                         [](const auto& test) { return test.param ? "WithColouredMirrorAndGold" : "Glass"; });
 
 // Without jitter one cluster sends all wavelengths the way of one: it differs from brute force far beyond the noise.
 TEST(WholeClusters, AreBiased) {

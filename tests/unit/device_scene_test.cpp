@@ -101,7 +101,7 @@ TEST(WavelengthTables, AddUpToTheWholeSpectrum) {
   EXPECT_EQ(w.cluster_cdf.front(), 0);
   EXPECT_EQ(w.cluster_cdf.back(), 1);
   EXPECT_TRUE(std::is_sorted(w.cluster_cdf.begin(), w.cluster_cdf.end()));
-  EXPECT_EQ(w.attenuator_count, 0);
+  EXPECT_FALSE(w.takes_light);
   // Every index of refraction is the mean of its cluster.
   for (std::size_t c = 0; c < w.clusters.size(); ++c) {
     double mean = 0;
@@ -111,15 +111,16 @@ TEST(WavelengthTables, AddUpToTheWholeSpectrum) {
   }
 }
 
-TEST(WavelengthTables, AMirrorOfOneIsNoAttenuatorAndABlackOneIs) {
+TEST(WavelengthTables, AMirrorOfOneTakesNoLightAndABlackOneDoes) {
   preset::Material mirror;
   mirror.type = preset::Material::Type::mirror;
   mirror.reflectance.value = 1;
   preset::Preset p = scene_with({}, mirror);
-  EXPECT_EQ(tables_of(p).wavelengths.attenuator_count, 0);
+  EXPECT_FALSE(tables_of(p).wavelengths.takes_light);
   p.scene.materials["thing"].reflectance.value = 0;
   const tracing::WavelengthTables w = tables_of(p).wavelengths;
-  EXPECT_EQ(w.attenuator_count, 1);
+  EXPECT_TRUE(w.takes_light);
+  EXPECT_FALSE(w.colours_light);
   EXPECT_EQ(w.coefficient[0], 200); // exp(-200) is 0 in single precision
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell and Fresnel against closed forms.
-#include "optics/conductor.h"
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
 #include "optics/spectrum.h"
@@ -81,32 +80,6 @@ TEST(Conductor, HasItsClosedForms) {
     EXPECT_NEAR(conductor_reflectance(std::cos(degrees * radian), 1, {1.5, 0}),
                 fresnel_reflectance(std::cos(degrees * radian), 1, 1.5), 1e-14);
   EXPECT_NEAR(conductor_reflectance(0.3, 1.5, {0.3, 4.5}), conductor_reflectance(0.3, 1, {0.2, 3}), 1e-14);
-}
-
-TEST(Conductor, ThreeTermsHoldShippedMetals) {
-  for (const char* name : {"gold", "silver", "copper", "aluminium", "brass"}) {
-    const DispersionCurve curve = scatter::load_dispersion(name);
-    const Spectrum n = sample_n(curve, Extrapolation::refuse), k = sample_k(curve, Extrapolation::refuse);
-    const ConductorTerms terms = conductor_terms(n, k);
-    EXPECT_LT(terms.error, 0.001) << name;
-    EXPECT_GT(terms.error, 0) << name;
-    for (const std::size_t w : {std::size_t{0}, std::size_t{150}, std::size_t{400}})
-      for (const double cosine : {1.0, 0.6, 0.1}) {
-        double loss = 0;
-        for (std::size_t j = 0; j < conductor_term_count; ++j) {
-          const std::size_t own = terms.wavelengths[j];
-          loss -= terms.coefficients[j][w] * std::log(conductor_reflectance(cosine, 1, {n[own], k[own]}));
-        }
-        EXPECT_NEAR(std::exp(-loss), conductor_reflectance(cosine, 1, {n[w], k[w]}), 0.001) << name;
-      }
-  }
-}
-
-TEST(Conductor, OneTermHoldsAMetalWithoutColour) {
-  const ConductorTerms terms = conductor_terms(constant_spectrum(2), constant_spectrum(3));
-  EXPECT_LT(terms.error, 1e-12);
-  EXPECT_NEAR(terms.coefficients[0][123], 1, 1e-12);
-  EXPECT_EQ(terms.coefficients[1], Spectrum{});
 }
 
 // A layer of a quarter of its wavelength turns light round: with n_layer^2 = n_t nothing is reflected. Half a

@@ -21,12 +21,7 @@ constexpr double quanta_of_photon = 0x1p24;
 
 } // namespace
 
-bool is_coloured(const tracing::WavelengthTables& tables) {
-  if (tables.clusters_spread) return true;
-  for (std::size_t i = 0; i < tables.coefficient.size(); ++i)
-    if (tables.coefficient[i] != tables.coefficient[i - i % WAVELENGTH_COUNT]) return true;
-  return false;
-}
+bool is_coloured(const tracing::WavelengthTables& tables) { return tables.clusters_spread || tables.colours_light; }
 
 Bake BakeTask::empty_bake() const {
   Bake bake;
@@ -52,7 +47,7 @@ BakeTask make_task(const preset::Preset& preset) {
   const tracing::LeaveOut leave_out{.all = preset.leave_out};
   task.tables = tracing::make_scene_tables(scene, {optics::all_wavelengths()}, leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
-  task.defines = tracing::code_omissions(leave_out, scene, task.tables.wavelengths.attenuator_count).defines;
+  task.defines = tracing::code_omissions(leave_out, scene, task.tables.wavelengths.takes_light).defines;
   task.defines["NEPHROID_CHANNELS"] = std::to_string(task.coloured ? 3 : 1);
   task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
   task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);

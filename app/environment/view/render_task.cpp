@@ -70,7 +70,7 @@ RenderTask make_render_task(const preset::Preset& preset, const scene::Scene& sc
   task.viewpoints = viewpoints_of(preset, scene, caster, task.placement);
   task.tables = tracing::make_scene_tables(*task.scene, {optics::all_wavelengths()}, leave_out);
   task.coloured = is_coloured(task.tables.wavelengths);
-  task.defines = tracing::code_omissions(leave_out, *task.scene, task.tables.wavelengths.attenuator_count).defines;
+  task.defines = tracing::code_omissions(leave_out, *task.scene, task.tables.wavelengths.takes_light).defines;
   task.defines.merge(scene::tree_defines(bvh));
   task.defines["NEPHROID_JITTER"] = std::to_string(int(task.coloured));
   task.defines["NEPHROID_DIFFERENTIALS"] = std::to_string(0);

@@ -275,8 +275,7 @@ optics::Spectrum with_held_ends(optics::Spectrum values) {
 std::optional<preset::Material> metal_of(Description& description, const std::string& name,
                                          const optics::Spectrum& file_n, const optics::Spectrum& file_k) {
   const optics::Spectrum n = with_held_ends(file_n), k = with_held_ends(file_k);
-  if (*std::ranges::min_element(n) <= 0 || optics::conductor_terms(n, k).error > scatter::most_conductor_error)
-    return std::nullopt;
+  if (*std::ranges::min_element(n) <= 0) return std::nullopt;
   std::string text =
       "COMMENTS: |\n    n and k as the scene's metal has them\nDATA:\n  - type: tabulated nk\n    data: |\n";
   for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 10) {

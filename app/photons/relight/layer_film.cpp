@@ -95,7 +95,7 @@ PlanPart plan_relighting(const PlanInput& input) {
   if (!input.settings.relight) return {};
   const std::size_t lights = input.tables.lights.size(), clusters = input.tables.wavelengths.clusters.size();
   const std::string split =
-      input.tables.wavelengths.attenuator_count > 0
+      input.tables.wavelengths.takes_light
           ? fmt::format("; in a cluster, what a material leaves of two wavelengths differs by at most {}",
                         largest_loss_difference)
           : "";

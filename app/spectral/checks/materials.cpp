@@ -26,11 +26,11 @@ preset::Preset onto_mirror(const preset::Material& mirror, double theta, std::ui
   room.inwards = true;
   p.scene.objects = {object("mirror", quad(40, 40), "mirror"), object("room", room, "white")};
   p.scene.lights = {inclined_pencil(theta)};
-  spectral::settings(p).photons_per_pass = 1 << 12;
+  spectral::settings(p).photons_per_pass = 1 << 16;
   return p;
 }
 
-/// What is left of daylight after one reflection, without chance: every photon loses its part of each wavelength.
+/// What is left of daylight after one reflection: chance takes the wavelengths of every photon.
 Result metals(const compute::Context& context, std::uint64_t seed) {
   double worst = 0;
   for (const char* metal : {"gold", "silver", "copper", "aluminium", "brass"}) {

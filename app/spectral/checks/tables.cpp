@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Sums over wavelengths (kernels/tracing/attenuation.h) with the engine's own tables, against double precision.
+// Sums over wavelengths (kernels/tracing/throughput.h) with the engine's own tables, against double precision.
 using Int4 = std::array<int, 4>; // light, cluster, reflector, attenuator
 
 /// Tables of daylight through dispersive glass onto a patch that is not grey.
@@ -35,7 +35,7 @@ tracing::WavelengthTables tables() {
   return device_tables(p).wavelengths;
 }
 
-/// Results of attenuated_sum for every cluster at every length of glass with absorption `coefficient` in 1/m.
+/// What is left of every cluster at every length of glass with absorption `coefficient` in 1/m.
 std::vector<float4> sums(const compute::Context& context, const tracing::WavelengthTables& t,
                          const std::vector<float>& coefficient, const std::vector<float>& lengths) {
   std::vector<Int4> which;
