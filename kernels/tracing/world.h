@@ -62,11 +62,10 @@ static inline Band choose_band(const World* world, int light, int cluster, float
   band = one_wavelength(cluster, leader.wavelength, leader.weight);
 #endif
 #if NEPHROID_LOSSES && (!NEPHROID_JITTER || NEPHROID_DIFFERENTIALS)
-  const int first = world->tables.cluster_first[cluster], end = world->tables.cluster_first[cluster + 1];
   band.own = carriers_of(leader, draw_wavelength(world, light, cluster, quarters_on(u, 1)),
                          draw_wavelength(world, light, cluster, quarters_on(u, 2)),
                          draw_wavelength(world, light, cluster, quarters_on(u, 3)),
-                         world->tables.cluster_wavelengths[(first + end) / 2]);
+                         draw_wavelength(world, light, cluster, 0.5f).wavelength);
 #endif
 #endif
   return band;

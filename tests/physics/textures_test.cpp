@@ -188,14 +188,16 @@ TEST(TintTextures, OfOneGreyAreThePlainNumber) {
   expect_truth("grey tint", light_below(textured) / truth, 1, 5e-3);
 }
 
-TEST(TintTextures, AreRefusedWhereWavelengthsGoTogether) {
+TEST(TintTextures, PassTheSameLightOfAClusterAndAreRefusedByLayers) {
   preset::Preset p = rough_thing(true, 0, {});
   p.scene.materials["board"].tint_texture = even(0.5);
-  for (const bool relight : {false, true}) {
-    spectral::settings(p).jitter = relight;
-    spectral::settings(p).relight = relight;
-    EXPECT_THAT(refusal_of([&] { render_as_it_is(p); }), HasSubstr(relight ? "spectral/relight" : "spectral/jitter"));
-  }
+  p.stop.passes = 16;
+  const double truth = mean_light(render(p), "caustic");
+  spectral::settings(p).jitter = false;
+  expect_truth("tint of whole clusters", mean_light(render(p), "caustic") / truth, 1, 5e-3);
+  spectral::settings(p).jitter = true;
+  spectral::settings(p).relight = true;
+  EXPECT_THAT(refusal_of([&] { render_as_it_is(p); }), HasSubstr("spectral/relight"));
 }
 
 // ---- Normal maps
