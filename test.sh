@@ -37,6 +37,8 @@ run_tests() {
   export LSAN_OPTIONS="suppressions=$leaks:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
   export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/thread.supp${TSAN_OPTIONS:+:$TSAN_OPTIONS}"
   export UBSAN_OPTIONS="print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}"
+  # Warnings of kernels are errors where those of C++ are. PoCL alone reads this.
+  [ "$preset" != ci ] || export POCL_EXTRA_BUILD_FLAGS=-Werror
   local status=0
   ctest --test-dir "$root/build/$preset" --output-on-failure --parallel 2 --no-tests=error "$@" || status=$?
   awk '/^\[=+\] Running [0-9]+ tests? from/ { ++suites; tests += $3 } /^\[  SKIPPED \] [0-9]+ test/ { skipped += $4 }

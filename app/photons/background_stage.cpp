@@ -5,7 +5,6 @@
 #include "optics/colour.h"
 #include "photons/eye_stage.h"
 #include "scene/scene.h"
-#include "tracing/omissions.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
 
@@ -67,7 +66,7 @@ public:
         primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),
         spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf)) {
     compute::Defines defines = world.eye_defines();
-    defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
+    defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // a path has wavelengths, not clusters
     kernel_ = compute::Program(world.context, "photons/background.cl", defines).kernel("background");
   }
 

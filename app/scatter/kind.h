@@ -38,7 +38,7 @@ struct Rows {
 
   /// Adds a row of losses and returns its number; -1 for none.
   int loss(std::span<const double> coefficients);
-  /// Says that the material takes light in another way, as roughness does; by_wavelength: and colours it.
+  /// Says that the material takes light, as loss() says of its row; by_wavelength: and colours it.
   void takes_light(bool by_wavelength = false);
   /// Adds the rows of a surface that a texture may lie on, and returns the first one's number. factor: of its colour.
   int colour(const optics::Spectrum& colour, double factor, bool is_textured);

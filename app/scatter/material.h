@@ -67,7 +67,7 @@ inline bool is_coated(const Material& material) { return material.coating_nm > 0
 bool disperses(const Material& material);
 
 /// Whether its surface bends or reflects each wavelength otherwise, which splits a path.
-inline bool parts_wavelengths(const Material& material) { return disperses(material) || is_coated(material); }
+inline bool splits_wavelengths(const Material& material) { return disperses(material) || is_coated(material); }
 
 /// Whether light that passes its surface may go on in another direction, or is reflected.
 bool bends(const Material& material);

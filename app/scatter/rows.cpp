@@ -78,7 +78,7 @@ DeviceMaterials device_materials(const std::vector<Material>& materials, const s
     row.texture = number(material.texture);
     row.roughness_texture = number(material.roughness_texture);
     row.normal_map = number(material.normal_map);
-    row.parts_wavelengths = parts_wavelengths(material);
+    row.splits_wavelengths = splits_wavelengths(material);
     Rows rows{tables, row};
     kind_of(material.type).add_rows(material, rows);
   }

@@ -161,7 +161,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const auto any = [&](bool (*is)(const scatter::Material&)) { return any_material(scene, is); };
   const bool bends = any(scatter::bends), blocked = !nothing_blocks_the_view(scene);
   const bool unsplit = any([](const scatter::Material& material) {
-    return lobes(material.type) != LOBE_DIFFUSE && !parts_wavelengths(material);
+    return lobes(material.type) != LOBE_DIFFUSE && !splits_wavelengths(material);
   });
   const unsigned materials = leave_out.mirrors ? material_type_bits(scene) : all_material_types;
   CodeOmissions omissions;

@@ -125,7 +125,7 @@ kernel void media_walks(global const DeviceObject* objects, global const int* st
 }
 
 // in: light, cluster, reflector, row of attenuation; and the length crossed there. out: what is left of the cluster's
-// light, in fours of its wavelengths.
+// light. It is summed four wavelengths at a time.
 kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient,
                        global const float4* light_xyz, global const float* reflectance, global const int4* in,
                        global const float* lengths, global float4* out, uint count) {

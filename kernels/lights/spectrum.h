@@ -58,9 +58,8 @@ static inline float row_share(const World* world, int light, const Band* band) {
   if (band->wavelength >= 0)
     return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
 #endif
-  const int cluster = made_late(band->cluster);
-  return members_light(&world->tables, light, world->tables.cluster_first[cluster],
-                       world->tables.cluster_first[cluster + 1], white_reflector()).w;
+  const int row = light * world->scene.cluster_count + band->cluster;
+  return world->tables.reflected_xyz[row * world->scene.reflector_count].w; // any reflector's is a white one's
 }
 
 // The share of a light's power that a band begins with. cluster_share: a lamp's share in the whole cluster.
@@ -79,7 +78,7 @@ static inline float share_at_end(const World* world, const Throughput* throughpu
   return is_unsplit(throughput, band) ? carried_light(world, &full, source, band, reflector_of_row(0)).w : share;
 }
 
-// The part of that which is left. Any reflector's row of the tables has the share of a white one as its w.
+// The part of that which is left. Again any reflector does.
 static inline float power_left(const World* world, const Throughput* throughput, Source source, const Band* band,
                                float share) {
   const bool unsplit = is_unsplit(throughput, band),

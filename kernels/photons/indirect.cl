@@ -9,8 +9,6 @@
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
 
-#define BANDS 4 // of a path, until glass sends them different ways; then only the first goes on
-
 typedef struct {
   uint2 seed;
   uint sample, paths, pixel; // of eye_numbers
@@ -18,17 +16,17 @@ typedef struct {
   SET_ASIDE uint scatterings;
   bool is_bent; // since the last of them
   bool narrow;  // it brings the light of narrow spots, too
-  bool is_divided;
-  SET_ASIDE Band bands[BANDS];
-  SET_ASIDE float throughput[BANDS]; // reflectances and n^2 behind the path; 0 where the band went another way
+  bool leader_alone;        // of the four wavelengths of its band: glass has split them
+  Band band;
+  SET_ASIDE float throughput[4]; // reflectances and n^2 behind the path; 0 where the wavelength went another way
 } Visitor;
 
-// Leaves one band, which stands for all of them from now on.
-static inline void divide(Visitor* eye) {
-  if (eye->is_divided) return;
-  eye->is_divided = true;
-  eye->throughput[0] *= (float)BANDS;
-  for (int i = 1; i < BANDS; ++i) eye->throughput[i] = 0.0f;
+// Lets the leader stand for all four from now on.
+static inline void leave_leader(Visitor* eye) {
+  if (eye->leader_alone) return;
+  eye->leader_alone = true;
+  eye->throughput[0] *= 4.0f;
+  for (int i = 1; i < 4; ++i) eye->throughput[i] = 0.0f;
 }
 
 // The XYZ that a path brings of light, as a reflector sends it.
@@ -36,11 +34,13 @@ static inline float3 brought(const World* world, const Visitor* eye, const Path*
                              Reflector reflector) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   ROLLED
-  for (int i = 0; i < BANDS; ++i)
+  for (int i = 0; i < 4; ++i)
     if (eye->throughput[i] > 0.0f) {
       Throughput throughput = path->throughput;
       throughput.own.four.x = number_of_four(throughput.own.four, i);
-      xyz += eye->throughput[i] * carried_light(world, &throughput, source, &eye->bands[i], reflector).xyz;
+      const Band band = one_wavelength(0, number_of_four_wavelengths(&eye->band.own, i),
+                                       4.0f * number_of_four(eye->band.own.weights, i));
+      xyz += eye->throughput[i] * carried_light(world, &throughput, source, &band, reflector).xyz;
     }
   return xyz;
 }
@@ -78,12 +78,7 @@ static inline float3 even_light(const World* world, const Visitor* eye, const Pa
   return (float3)(0.0f);
 }
 
-static inline Band visitor_band(const Visitor* eye) {
-  Band band = eye->bands[0];
-  band.own.wavelengths = (int4)(eye->bands[0].wavelength, eye->bands[1].wavelength, eye->bands[2].wavelength,
-                                eye->bands[3].wavelength);
-  return band;
-}
+static inline Band visitor_band(const Visitor* eye) { return eye->band; }
 
 static inline float4 walk_numbers(const Visitor* eye, int n) {
   return eye_numbers(eye->seed, eye->sample, n < 2 ? eye->paths : 0u, eye->pixel, 1u + (uint)n, STREAM_INDIRECT);
@@ -105,17 +100,17 @@ static inline bool visit_base(const World* world, Visitor* eye, Path* path, cons
   const float4 random = walk_numbers(eye, n);
   const float side = dot(path->direction, at->surface.geometric) < 0.0f ? 1.0f : -1.0f;
   float most = 0.0f;
-  for (int i = 0; i < BANDS; ++i) {
-    eye->throughput[i] *= reflectance_of(&world->tables, reflector, eye->bands[i].wavelength);
+  for (int i = 0; i < 4; ++i) {
+    eye->throughput[i] *= reflectance_of(&world->tables, reflector, number_of_four_wavelengths(&eye->band.own, i));
     most = fmax(most, eye->throughput[i]);
   }
   const float chance = eye->scatterings > 0u ? fmin(most, 1.0f) : 1.0f;
   if (!(most > 0.0f) || random.z >= chance) return false;
-  for (int i = 0; i < BANDS; ++i) eye->throughput[i] /= chance;
+  for (int i = 0; i < 4; ++i) eye->throughput[i] /= chance;
   path->direction = cosine_direction(side * at->surface.shading, random.x, random.y);
   const float passes =
       part_to_base(world, &at->surface, path->direction) * part_at_normal(&at->surface, path->direction);
-  for (int i = 0; i < BANDS; ++i) eye->throughput[i] *= passes;
+  for (int i = 0; i < 4; ++i) eye->throughput[i] *= passes;
   path->origin = start_on_side(&at->surface, side);
   path->skip = at->triangle;
   path->behind = 0.0f;
@@ -126,8 +121,8 @@ static inline bool visit_base(const World* world, Visitor* eye, Path* path, cons
 
 static inline bool visit_scatter(const World* world, Visitor* eye, const Path* path, const Interaction* at,
                                  const ScatterSample* sample, int n) {
-  if (path->throughput.is_split) divide(eye);
-  for (int i = 0; i < BANDS; ++i) eye->throughput[i] *= sample->n_ratio * sample->n_ratio;
+  if (path->throughput.is_split) leave_leader(eye);
+  for (int i = 0; i < 4; ++i) eye->throughput[i] *= sample->n_ratio * sample->n_ratio;
   eye->is_bent = true;
   eye->narrow = eye->narrow || n == 0;
   return true;
@@ -143,7 +138,7 @@ static inline bool visit_scatter(const World* world, Visitor* eye, const Path* p
 IN_PLACE float3 follow(const World* world, Visitor* eye, Path path, Hit hit) {
   eye->xyz = (float3)(0.0f);
   eye->scatterings = 0u;
-  eye->is_divided = eye->is_bent = eye->narrow = false;
+  eye->leader_alone = eye->is_bent = eye->narrow = false;
   Interaction at;
   int last;
   const int how = walk(world, eye, &path, &hit, true, 0, &at, &last);
@@ -178,16 +173,19 @@ __kernel void indirect(WORLD_ARGUMENTS,
     visitor.sample = frame * paths + p;
     visitor.paths = paths;
     visitor.pixel = pixel;
-    for (uint i = 0; i < BANDS; ++i) {
-      // The bands of each path begin with another one.
-      const float place = golden_place(launch.seed, frame, (i + p) % BANDS, BANDS, pixel, STREAM_INDIRECT_BAND);
-      const int cluster = choose(world.cluster_cdf + 1, scene.cluster_count, place);
-      const float chance = world.cluster_cdf[cluster + 1] - world.cluster_cdf[cluster];
-      visitor.bands[i] = choose_band(&world, scene.light_count, cluster, (place - world.cluster_cdf[cluster]) / chance);
-      visitor.bands[i].weight /= chance;
+    DrawnWavelength drawn[4];
+    for (uint i = 0; i < 4u; ++i) {
+      // Another wavelength leads each path.
+      const float place = golden_place(launch.seed, frame, (i + p) % 4u, 4u, pixel, STREAM_INDIRECT_BAND);
+      float chance, within;
+      const int cluster = cluster_at(&world, place, &chance, &within);
+      drawn[i] = draw_wavelength(&world, scene.light_count, cluster, within);
+      drawn[i].weight /= chance;
+      if (i == 0u) visitor.band = one_wavelength(cluster, drawn[0].wavelength, drawn[0].weight);
       visitor.throughput[i] = 1.0f;
     }
-    xyz += follow(&world, &visitor, path_from_eye(eye, outwards), first) / (float)(paths * BANDS);
+    visitor.band.own = carriers_of(drawn[0], drawn[1], drawn[2], drawn[3], drawn[0].wavelength);
+    xyz += follow(&world, &visitor, path_from_eye(eye, outwards), first) / (float)(paths * 4u);
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
              limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);

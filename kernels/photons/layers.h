@@ -49,7 +49,8 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
   return true;
 }
 
-// The wavelengths of a path in a cluster with the same power at all wavelengths: layers know no other. u: in [0, 1).
+// The band of a path in a flat cluster: all its wavelengths have the same power, for layers know no other. u: in
+// [0, 1).
 static inline Band flat_cluster(const SpectralTables* tables, int cluster, float u) {
   Band band = whole_cluster(cluster);
 #if NEPHROID_LOSSES
@@ -64,7 +65,7 @@ static inline Band flat_cluster(const SpectralTables* tables, int cluster, float
   return band;
 }
 
-// The part that a path leaves of it.
+// The part that a path leaves of a flat cluster.
 static inline float flat_part_left(const Throughput* throughput) {
   return NEPHROID_LOSSES ? 0.25f * dot(throughput->own.four, (float4)(1.0f)) : 1.0f;
 }

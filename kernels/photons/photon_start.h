@@ -53,7 +53,7 @@ typedef struct {
   float4 emission;  // in [0, 1): target, direction (2); w: the film's dither
   float2 place;     // in [0, 1): on an area light, or in the environment
   float wavelength; // in [0, 1): chooses a wavelength of its cluster
-  float number;     // in [0, 1): chooses the cluster, too
+  float number;     // in [0, 1): chooses a cluster and a wavelength of all that the light has
 } PhotonStart;
 
 // The start of photon `photon` of the batch or pass with the number `iteration`. first_iteration: the first with this

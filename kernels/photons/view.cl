@@ -13,7 +13,8 @@
 static inline float3 transmittance(const World* world, const Throughput* throughput, const Band* band,
                                    Reflector reflector) {
   float3 part = (float3)(part_left(throughput));
-  if (!are_coloured(&throughput->own) || (NEPHROID_JITTER && band->wavelength >= 0)) return part;
+  if (NEPHROID_JITTER && band->wavelength >= 0) return part;
+  if (!are_coloured(&throughput->own)) return part;
   const Throughput full = full_throughput();
   float3 left = (float3)(0.0f), all = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {

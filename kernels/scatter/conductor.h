@@ -18,8 +18,9 @@ static inline float conductor_reflectance(float cos_i, float n, float k) {
 static inline float conductor_part(const World* world, const DeviceMaterial* material, const Band* band, int around,
                                    float cos_i, int wavelength) {
   __global const float* n_and_k = world->tables.surface_data + material->surface_first + 2 * wavelength;
-  const Band one = one_wavelength(band->cluster, band->wavelength < 0 ? -1 : wavelength, 1.0f);
-  const float n_near = around < 0 ? 1.0f : index_of_band(world, &one)[around];
+  const float n_near = around < 0                                 ? 1.0f
+                       : NEPHROID_JITTER && band->wavelength >= 0 ? index_of_wavelength(world, wavelength)[around]
+                                                                  : index_of_cluster(world, band->cluster)[around];
   return conductor_reflectance(cos_i, n_and_k[0] / n_near, n_and_k[1] / n_near);
 }
 

@@ -106,8 +106,8 @@ static inline void pass_tint(const World* world, Path* path, const Interaction* 
 // Says that a path has met a surface between these materials, which reflects or bends each wavelength otherwise.
 static inline void split(const World* world, Path* path, int near_material, int far_material) {
   path->throughput.is_split = path->throughput.is_split ||
-                              (near_material >= 0 && world->materials[near_material].parts_wavelengths) ||
-                              (far_material >= 0 && world->materials[far_material].parts_wavelengths);
+                              (near_material >= 0 && world->materials[near_material].splits_wavelengths) ||
+                              (far_material >= 0 && world->materials[far_material].splits_wavelengths);
 }
 
 static inline bool dielectric_scatter(const World* world, Path* path, const Interaction* at, const Band* band, float u,

@@ -64,7 +64,7 @@
 #define TARGET_TABLES(TABLE) \
   TABLE(DeviceTarget, targets, "targets") /* lists: DeviceLight::first_target */
 
-// What paths from the eye, and tiles, look up.
+// What paths from the eye, unsplit photons and tiles look up.
 #define COLOUR_TABLES(TABLE) \
   TABLE(float, cluster_cdf, "cluster choice") /* [cluster + 1]: what paths through glass are worth */ \
   TABLE(float4, reflected_xyz_all, "reflected colours") /* [row][reflector]: reflected_xyz of all clusters */ \

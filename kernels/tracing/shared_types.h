@@ -69,7 +69,7 @@ typedef struct {
   int texture;         // of its reflectance or tint: number of a texture (scatter/texture.h); -1: none
   int roughness_texture; // the same of its roughness
   int normal_map;        // the same of its normals
-  int parts_wavelengths; // dielectric: its surface bends or reflects each wavelength otherwise
+  int splits_wavelengths; // dielectric: its surface bends or reflects each wavelength otherwise
 } DeviceMaterial;
 
 typedef struct {

@@ -4,7 +4,6 @@
 // say. Where nothing takes light NEPHROID_LOSSES is 0, and this compiles to nothing.
 #include "kernels/tracing/band.h"
 #include "kernels/tracing/reflector.h"
-#include "kernels/tracing/registers.h"
 
 #ifndef NEPHROID_LOSSES
 #define NEPHROID_LOSSES 1
@@ -70,7 +69,7 @@ static inline void leave_part(Throughput* throughput, float part) {
 // exp(-a length). a: [401].
 static inline Parts attenuation(__global const float* a, float length, const Carriers* carriers) {
   const int4 w = carriers->wavelengths;
-  const Parts parts = {exp((float4)(a[w.x], a[w.y], a[w.z], a[w.w]) * -length), 
+  const Parts parts = {exp((float4)(a[w.x], a[w.y], a[w.z], a[w.w]) * -length),
                        exp((float4)(a[carriers->middle] * -length)).x}; // as the four, to the bit
   return parts;
 }

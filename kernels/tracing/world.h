@@ -37,11 +37,17 @@ static inline DeviceMaterial material_of(const World* world, int object) {
 }
 
 // [material]: the index of refraction.
+static inline __global const float* index_of_cluster(const World* world, int cluster) {
+  return world->tables.index_of_cluster + cluster * world->scene.material_count;
+}
+static inline __global const float* index_of_wavelength(const World* world, int wavelength) {
+  return world->tables.index_of_wavelength + wavelength * world->scene.material_count;
+}
+
+// For the way that a path goes.
 static inline __global const float* index_of_band(const World* world, const Band* band) {
-#if NEPHROID_JITTER
-  if (band->wavelength >= 0) return world->tables.index_of_wavelength + band->wavelength * world->scene.material_count;
-#endif
-  return world->tables.index_of_cluster + band->cluster * world->scene.material_count;
+  return NEPHROID_JITTER && band->wavelength >= 0 ? index_of_wavelength(world, band->wavelength)
+                                                  : index_of_cluster(world, band->cluster);
 }
 
 // A wavelength of a cluster, by the worth of the light (app/tracing/scales.h). light: where it comes from, or

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snell and Fresnel against closed forms.
-#include "optics/dispersion.h"
 #include "optics/fresnel.h"
-#include "optics/spectrum.h"
-#include "scatter/spectra.h"
 #include "tests/support/test.h"
 
 namespace nephroid::fresnel_test {
