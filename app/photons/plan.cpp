@@ -3,7 +3,7 @@
 #include "photons/plan.h"
 
 #include "base/counted.h"
-#include "lights/lights.h"
+#include "photons/capabilities.h"
 #include "photons/describe_settings.h"
 #include "photons/effort/effort.h"
 #include "photons/plan_part.h"
@@ -59,7 +59,6 @@ plan::Decision environment_light_decision(const PlanInput& input) {
   const std::string name = "environment light", field = "/scene/environment/lights";
   const scene::Environment& environment = *input.scene.environment;
   if (environment.is_black()) return {name, false, "the environment is black"};
-  if (input.settings.relight) return not_in_layers(name, "every texel has a spectrum of its own");
   if (!environment.lights) return {name, false, "scene.environment.lights is false: it is only seen", field, true};
   return {name, true, size_of(environment) + ": sends photons and lights diffuse surfaces, each texel by its flux",
           field, true};
@@ -107,115 +106,13 @@ plan::Decision low_discrepancy_decision(const Settings& settings) {
           "/spectral/low_discrepancy", true};
 }
 
-/// Whether two objects of glass meet, or one is in the other, as far as the spheres about them tell.
-bool glass_meets_glass(const scene::Scene& scene) {
-  std::vector<scene::Sphere> bodies;
-  for (const scene::Object& object : scene.objects)
-    if (is_specular(material_of(scene, object).type)) bodies.push_back(object.bounds);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (glm::distance(bodies[i].centre, bodies[j].centre) < bodies[i].radius + bodies[j].radius) return true;
-  return false;
-}
-
-/// A rough surface sends neighbouring photons to different places, so no piece of light joins them. A tile has one
-/// colour, and a texture many. What a coating reflects is worked out for one wavelength, and the others of its cluster
-/// are treated otherwise.
-void refuse_what_materials_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
-  if (wanted.estimator == Settings::Estimator::tiles && any_material(scene, scatter::is_rough))
-    throw bad_input(spectral / "estimator", "is tiles, and a rough surface scatters the corners of each",
-                    "expected points, splat or sppm", "or set its roughness to 0");
-  if (any_material(scene, scatter::has_coat)) {
-    if (wanted.estimator == Settings::Estimator::tiles)
-      throw bad_input(spectral / "estimator", "is tiles, which end at matt surfaces, and one is of plastic",
-                      "expected points, splat or sppm", "or make it diffuse");
-    if (wanted.relight)
-      throw bad_input(spectral / "relight",
-                      "keeps layers of what surfaces scatter, and one is of plastic, which reflects", "expected false",
-                      "or make it diffuse");
-  }
-  if (any_material(scene, scatter::has_pictures)) {
-    if (wanted.estimator == Settings::Estimator::tiles)
-      throw bad_input(spectral / "estimator", "is tiles, each of one colour, and a surface has a texture",
-                      "expected points, splat or sppm", "or take the texture away");
-    if (wanted.relight)
-      throw bad_input(spectral / "relight", "keeps layers for surfaces of one colour, and one has a texture",
-                      "expected false", "or take the texture away");
-  }
-  const auto is_seen = [&](const scene::Light& light) {
-    return light.object >= 0 && is_matt(material_of(scene, scene.objects[static_cast<std::size_t>(light.object)]).type);
-  };
-  if (wanted.relight && std::ranges::any_of(scene.lights, is_seen))
-    throw bad_input(spectral / "relight", "keeps layers of what surfaces scatter, and an object shines itself",
-                    "expected false", "or take an area light in its place");
-  if (!any_material(scene, scatter::is_coated)) return;
-  const auto refuse = [&](bool is_set, const char* field, const char* expected) {
-    if (is_set)
-      throw bad_input(spectral / field, "sends wavelengths of a cluster together, which a coating parts", expected,
-                      "or take the coating away");
-  };
-  refuse(!wanted.jitter, "jitter", "expected true");
-  refuse(wanted.relight, "relight", "expected false");
-  refuse(wanted.estimator == Settings::Estimator::tiles, "estimator", "expected points, splat or sppm");
-}
-
-/// Tiles and layers look up what a pixel shows from one point.
-void refuse_what_cameras_cannot(const Settings& wanted, const scene::Scene& scene, const Location& spectral) {
-  if (scene.camera.is_plain()) return;
-  const auto refuse = [&](bool is_set, const char* field, const char* expected) {
-    if (is_set)
-      throw bad_input(spectral / field, "needs a camera without aperture, shift and orthographic projection", expected,
-                      "or set scene.camera.aperture and shift to 0, and projection to perspective");
-  };
-  refuse(wanted.relight, "relight", "expected false");
-  refuse(wanted.estimator == Settings::Estimator::tiles, "estimator", "expected points, splat or sppm");
-}
-
-/// Why photons are points; empty where tiles have less error (docs/notebook/tiles.md).
-std::string why_points(const Settings& wanted, const scene::Scene& scene) {
-  if (wanted.relight) return "spectral.relight is true: layers hold whole clusters";
-  if (any_material(scene, scatter::is_coated)) return "a coating reflects each wavelength otherwise";
-  if (!scene.camera.is_plain()) return "a camera with a lens, a shift or parallel rays sees points only";
-  if (any_material(scene, scatter::is_rough)) return "a rough surface scatters the corners of a tile";
-  if (any_material(scene, scatter::has_coat)) return "plastic reflects a part of the light, which tiles do not follow";
-  if (any_material(scene, scatter::has_pictures)) return "a tile has one colour, and a texture many";
-  if (wanted.method == Settings::Method::brute_force || wanted.effort != Settings::Effort::automatic ||
-      !wanted.jitter || !wanted.low_discrepancy)
-    return "spectral.method, effort, jitter or low_discrepancy ask for points";
-  if (scene.environment && scene.environment->lights && !scene.environment->is_black())
-    return "an environment has too many directions: a lattice for each would be coarse";
-  if (std::ranges::any_of(
-          scene.lights, [](const scene::Light& light) { return !is_environment(light) && lights::has_places(light); }))
-    return "a lamp of a size has too many places: a lattice for each would be coarse";
-  if (tracing::count_objects(scene).mirrors > 0) return "mirrors spread a cell too far";
-  if (tracing::may_see_glass_or_mirror(scene)) return "the camera sees glass: photon maps have more noise than splats";
-  if (glass_meets_glass(scene)) return "glass meets glass: photons would have too many branches";
-  constexpr std::uint32_t most_facets = 40, most_smooth = 4096;
-  std::uint32_t facets = 0, smooth = 0; // triangles of glass
-  for (const scene::Object& object : scene.objects)
-    if (is_specular(material_of(scene, object).type)) (object.smooth ? smooth : facets) += object.triangle_count;
-  if (facets > most_facets || smooth > most_smooth)
-    return fmt::format("glass has {}: a cell would meet several at once", counted(facets + smooth, "triangle"));
-  return "";
-}
-
-plan::Decision tiles_decision(const Settings& wanted, const scene::Scene& scene) {
-  if (wanted.estimator != Settings::Estimator::automatic)
-    return {"tiles", wanted.estimator == Settings::Estimator::tiles,
-            fmt::format("spectral.estimator is {}", preset::word(wanted.estimator))};
-  const std::string why = why_points(wanted, scene);
-  return {"tiles", why.empty(),
-          why.empty() ? "each photon lights the piece that its cell of a lattice stands for" : why};
-}
-
 plan::Decision differentials_decision(const PlanInput& input) {
   const char* const name = "differentials";
   if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
   const bool tiles = input.settings.estimator == Settings::Estimator::tiles;
   if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
   const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
-  if (any_material(input.scene, scatter::is_coated))
-    return {name, false, "a coating reflects each wavelength otherwise"};
+  if (std::string why = why_no_differentials(input.scene); !why.empty()) return {name, false, std::move(why)};
   if (along == tracing::StretchParameter::none)
     return {name, false, "no glass bends one wavelength otherwise than another"};
   if (!input.settings.jitter && !tiles)
@@ -313,18 +210,16 @@ bool RunPlan::runs(const RunPart& part) const { return std::ranges::count(parts,
 
 RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const scene::Scene& scene,
                   const scene::Bvh& bvh, const tracing::LeaveOut& leave_out) {
-  refuse_what_materials_cannot(wanted, scene, Location(preset.source) / "spectral");
-  refuse_what_cameras_cannot(wanted, scene, Location(preset.source) / "spectral");
+  Agreed agreed = agree(wanted, scene);
   RunPlan plan;
-  plan.settings = wanted;
-  plan.settings.pixel_samples = pixel_samples(wanted, scene);
-  const plan::Decision tiles = tiles_decision(wanted, scene);
-  if (wanted.estimator == Settings::Estimator::automatic)
-    plan.settings.estimator = tiles.runs ? Settings::Estimator::tiles : Settings::Estimator::points;
+  plan.settings = std::move(agreed.settings);
+  plan.settings.pixel_samples = pixel_samples(plan.settings, scene);
+  plan.notes = std::move(agreed.notes);
   const Settings& settings = plan.settings;
   plan.tables = make_run_tables(preset, settings, scene, bvh, leave_out);
   PlanInput input{preset, settings, scene, bvh, leave_out, plan.tables, tracing::count_objects(scene)};
-  input.tiles = tiles;
+  input.tiles = std::move(agreed.tiles);
+  input.why_no_indirect = std::move(agreed.why_no_indirect);
   input.caustics = caustics_decision(input);
   input.estimate = estimate_decision(preset, settings, input.caustics);
   std::set<std::string_view> layers;

@@ -31,9 +31,10 @@ struct PlanInput {
   const tracing::LeaveOut& leave_out;
   const RunTables& tables;
   tracing::ObjectCounts objects;
-  plan::Decision tiles = {};    ///< whether photons are tiles, and why
-  plan::Decision caustics = {}; ///< whether there are any of photons, splatted or gathered, and why
-  plan::Decision estimate = {}; ///< whether films have two halves, and why
+  plan::Decision tiles = {};        ///< whether photons are tiles, and why
+  plan::Decision caustics = {};     ///< whether there are any of photons, splatted or gathered, and why
+  std::string why_no_indirect = {}; ///< where settings.indirect is false
+  plan::Decision estimate = {};     ///< whether films have two halves, and why
 
   bool has_caustics() const { return caustics.runs || (tables.has_even_sky && settings.caustic); }
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }

@@ -41,9 +41,11 @@ struct Settings {
   std::optional<int> pixel_samples;        ///< most samples of a pixel without glass and mirrors; RunPlan has a value
   int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
   Sppm sppm;
-  bool direct = true;     ///< layer: light that reaches a diffuse surface unbent
-  bool caustic = true;    ///< layer: light that met glass or a mirror, then one diffuse surface
-  bool indirect = false;  ///< layer: light that met a diffuse surface before the last one
+  bool direct = true;  ///< layer: light that reaches a diffuse surface unbent
+  bool caustic = true; ///< layer: light that met glass or a mirror, then one diffuse surface
+  /// Layer: light that met a diffuse surface before the last one. Nothing: where diffuse surfaces can see each other;
+  /// RunPlan has a value.
+  std::optional<bool> indirect;
   bool background = true; ///< layer: the environment
   bool operator==(const Settings&) const = default;
 };

@@ -14,7 +14,8 @@ struct Decision {
   std::string name;
   bool runs = true;
   std::string reason;     ///< a sentence a person can read
-  std::string field = {}; ///< JSON pointer of the preset's boolean that decides; empty where none does
+  std::string field = {}; ///< JSON pointer of the preset's boolean that decides, null where the scene does;
+                          ///< empty where none does
   bool run_value = false; ///< what it must be for that to run; what is needed runs whatever it is
 };
 

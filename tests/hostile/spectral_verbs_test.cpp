@@ -247,11 +247,6 @@ TEST_F(ImportanceVerb, WhatIsWrongIsSaidInOneLine) {
        "--set spectral.effort=importance: " + says},
       {{"run", "ball.json", black[0], black[1], "--set", "spectral.effort=importance"},
        "--set spectral.effort=importance: " + says},
-      {{"plan", "ball.json", "--set", "spectral.effort=random"}, "random needs the estimator sppm"},
-      {{"plan", "ball.json", "--set", "spectral.effort=variance", "--set", "spectral.estimator=sppm"},
-       "variance is not measured by the estimator sppm"},
-      {{"plan", "ball.json", "--set", R"(reference={"type": "recipe", "spectral": {"effort": "random"}})"},
-       "random needs the estimator sppm"},
   };
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }

@@ -78,6 +78,9 @@ const char* const open_to_infinities =
   static inline T __attribute__((overloadable)) open_max(T a, T b) { return max(a, b); }             \
   static inline T __attribute__((overloadable)) open_min(T a, T b) { return min(a, b); }
 OPEN(float) OPEN(float2) OPEN(float3) OPEN(float4) OPEN(float8) CLOSED(int) CLOSED(uint)
+#undef max
+#undef min
+#undef clamp
 #define max(a, b) open_max(a, b)
 #define min(a, b) open_min(a, b)
 #define clamp(x, low, high) open_min(open_max(x, low), high)

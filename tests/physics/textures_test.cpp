@@ -188,16 +188,13 @@ TEST(TintTextures, OfOneGreyAreThePlainNumber) {
   expect_truth("grey tint", light_below(textured) / truth, 1, 5e-3);
 }
 
-TEST(TintTextures, PassTheSameLightOfAClusterAndAreRefusedByLayers) {
+TEST(TintTextures, PassTheSameLightOfACluster) {
   preset::Preset p = rough_thing(true, 0, {});
   p.scene.materials["board"].tint_texture = even(0.5);
   p.stop.passes = 16;
   const double truth = mean_light(render(p), "caustic");
   spectral::settings(p).jitter = false;
   expect_truth("tint of whole clusters", mean_light(render(p), "caustic") / truth, 1, 5e-3);
-  spectral::settings(p).jitter = true;
-  spectral::settings(p).relight = true;
-  EXPECT_THAT(refusal_of([&] { render_as_it_is(p); }), HasSubstr("spectral/relight"));
 }
 
 // ---- Normal maps

@@ -26,7 +26,8 @@ double mean_of(const job::Snapshot& snapshot, const std::string& name = {}) {
 /// A preset with all layers.
 preset::Preset with_all_light(int resolution, Estimator estimator) {
   preset::Preset p = empty_preset(resolution);
-  spectral::settings(p).direct = spectral::settings(p).indirect = true;
+  spectral::settings(p).direct = true;
+  spectral::settings(p).indirect = true;
   spectral::settings(p).estimator = estimator;
   spectral::settings(p).max_surfaces = 200;
   spectral::settings(p).photons_per_pass = spectral::settings(p).indirect_photons_per_pass = 1 << 15;

@@ -12,6 +12,7 @@ protected:
     runs.plan.decisions = {{"direct", true, "1 diffuse object", "/spectral/direct", true},
                            {"mirrors", false, "no object is a mirror", "/leave_out", false},
                            {"indirect", false, "not rendered yet", "", false},
+                           {"walls", false, "in one plane", "/spectral/indirect", true},
                            {"fog", false, "there is none", "/leave_out/fog", false}};
     runs.plan.buffers = {{"tree", 1 << 20}, {"film", 3 << 20}};
     runs.plan.defines = {{"NEPHROID_SMOOTH", "0"}};
@@ -53,6 +54,9 @@ TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone) {
   ASSERT_TRUE(again);
   EXPECT_TRUE(again->preset.leave_out);
   EXPECT_EQ(again->label, "leave out mirrors");
+  const auto walls = click("walls");
+  ASSERT_TRUE(walls);
+  EXPECT_EQ(spectral::settings(walls->preset).indirect, true) << "the scene decided, and left it out";
   const auto direct = click("direct");
   ASSERT_TRUE(direct);
   EXPECT_FALSE(spectral::settings(direct->preset).direct) << "its box was checked: true is to run";

@@ -119,8 +119,9 @@ void PlanPanel::read_fields(const Context& context) {
   for (const plan::Decision& decision : plan_->decisions) {
     std::optional<bool>& computed = computed_.emplace_back();
     const nlohmann::json::json_pointer pointer(decision.field);
-    if (!decision.field.empty() && fields.contains(pointer) && fields[pointer].is_boolean())
-      computed = fields[pointer] == decision.run_value;
+    if (decision.field.empty() || !fields.contains(pointer)) continue;
+    if (fields[pointer].is_boolean()) computed = fields[pointer] == decision.run_value;
+    if (fields[pointer].is_null()) computed = decision.runs; // the scene decides
   }
 }
 

@@ -60,7 +60,7 @@ void set_scales(const scene::Scene& scene, int samples, RunTables& tables) {
 /// Whether paths from the eye bring the environment's even light, where it is not too little for its own rays.
 bool takes_even_sky(const Settings& settings, const scene::Scene& scene, const tracing::SceneTables& tables) {
   constexpr double least_part = 0.05;
-  return (settings.caustic || settings.indirect) && !settings.relight &&
+  return (settings.caustic || settings.indirect.value_or(false)) && !settings.relight &&
          settings.estimator != Settings::Estimator::sppm && tables.sky && 1 - tables.sky->peak_part >= least_part &&
          !tables.spheres.empty() && tracing::count_objects(scene).diffuse > 0;
 }

@@ -18,6 +18,7 @@ inline preset::Preset empty_preset(int resolution = 64) {
   p.unit = preset::Preset::Unit::m;
   p.scene.camera.resolution = {resolution, resolution};
   spectral::settings(p).direct = false;
+  spectral::settings(p).indirect = false;
   spectral::settings(p).estimator = photons::Settings::Estimator::splat;
   spectral::settings(p).low_discrepancy = false;
   spectral::settings(p).photons_per_pass = 1 << 16;
