@@ -3,8 +3,6 @@
 #include "optics/fresnel.h"
 #include "scatter/kind.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <vector>
 
@@ -14,30 +12,14 @@ constinit const Kind kinds::conductor{
     .sentence = "Metal, by its measured n and k.",
     .describe =
         [](preset::Fields& v, preset::Material& m) {
-          v.field("metal",
-                  "gold, silver, copper, aluminium, brass, or a YAML file of refractiveindex.info with n and k.",
-                  m.metal, {.text = preset::Text::file, .names = preset::Names::metal});
+          describe_metal(v, m);
           describe_roughness(v, m);
           describe_roughness_texture(v, m);
         },
     .load =
         [](const Loading& loading, Material& made) {
           loading.roughness(made);
-          preset::Dispersion metal;
-          metal.type = preset::Dispersion::Type::file;
-          metal.file = loading.from.metal;
-          const Location field = loading.where / "metal";
-          loading.curve(metal, field, [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
-            if (!curve.k)
-              throw bad_input(field, fmt::format("{} has no k", curve.name), "expected a metal's n and k",
-                              "take gold, silver, copper, aluminium, brass, or a file of refractiveindex.info");
-            made.n = optics::sample_n(curve, outside);
-            made.k = optics::sample_k(curve, outside);
-          });
-          if (const double most = std::ranges::max(made.k); most < 0.01)
-            loading.warn(fmt::format("its k is at most {:.2g}, which is no metal's: a conductor absorbs what a "
-                                     "dielectric lets through",
-                                     most));
+          loading.metal(made);
           for (std::size_t w = 0; w < made.n.size(); ++w)
             made.reflectance[w] = optics::conductor_reflectance(1, 1, {made.n[w], made.k[w]});
         },

@@ -16,9 +16,7 @@ constinit const Kind kinds::dielectric{
           describe_roughness(v, m);
           describe_roughness_texture(v, m);
           v.field("absorption", "Absorb light inside where the dispersion file has k.", m.absorption);
-          v.field("tint",
-                  "Part of the light that passes the surface, each time: a number, a ColorChecker patch or an object.",
-                  m.tint);
+          describe_tint(v, m);
           v.field("tint_texture", "What the tint is multiplied by: a picture file or an object.", m.tint_texture);
           v.field("thin", "A pane without thickness: light goes straight on, or is reflected by both faces together.",
                   m.thin);

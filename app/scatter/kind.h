@@ -29,6 +29,10 @@ struct Loading {
                                          const char* field) const;
   /// Loads the roughness and its texture.
   void roughness(Material& material) const;
+  /// Loads n and k of the field "metal".
+  void metal(Material& material) const;
+  /// Loads the index of the field "dispersion" at 588 nm, as a coat's.
+  void coat_index(Material& material) const;
 };
 
 /// A material's row on its way into the tables.
@@ -65,6 +69,9 @@ const Kind& kind_of(preset::Material::Type type);
 // Fields that several types have.
 void describe_reflectance(preset::Fields& v, preset::Material& m);
 void describe_texture(preset::Fields& v, preset::Material& m);
+void describe_metal(preset::Fields& v, preset::Material& m);
+void describe_coat_index(preset::Fields& v, preset::Material& m);
+void describe_tint(preset::Fields& v, preset::Material& m);
 void describe_roughness(preset::Fields& v, preset::Material& m);
 void describe_roughness_texture(preset::Fields& v, preset::Material& m);
 

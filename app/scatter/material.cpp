@@ -62,6 +62,34 @@ void Loading::roughness(Material& material) const {
   material.roughness_texture = picture(from.roughness_texture, Texels::numbers, "roughness_texture");
 }
 
+void Loading::metal(Material& material) const {
+  preset::Dispersion metal;
+  metal.type = preset::Dispersion::Type::file;
+  metal.file = from.metal;
+  const Location field = where / "metal";
+  curve(metal, field, [&](const optics::DispersionCurve& data, optics::Extrapolation outside) {
+    if (!data.k)
+      throw bad_input(field, fmt::format("{} has no k", data.name), "expected a metal's n and k",
+                      "take gold, silver, copper, aluminium, brass, or a file of refractiveindex.info");
+    material.n = optics::sample_n(data, outside);
+    material.k = optics::sample_k(data, outside);
+  });
+  if (const double most = std::ranges::max(material.k); most < 0.01)
+    warn(fmt::format("its k is at most {:.2g}, which is no metal's: a conductor absorbs what a "
+                     "dielectric lets through",
+                     most));
+}
+
+void Loading::coat_index(Material& material) const {
+  const Location field = where / "dispersion";
+  curve(from.dispersion, field, [&](const optics::DispersionCurve& data, optics::Extrapolation outside) {
+    material.coat_n = data.sample(588, outside).n.value_or(0);
+  });
+  if (!(material.coat_n >= 1 && material.coat_n <= 4))
+    throw bad_input(field, fmt::format("is {:.3g} at 588 nm", material.coat_n), "expected 1 to 4 for a coat",
+                    "varnish and plastic have about 1.5");
+}
+
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
                        const Location& where, std::vector<std::string>& warnings) {
   Material made;
@@ -84,6 +112,22 @@ void describe_reflectance(preset::Fields& v, preset::Material& m) {
 
 void describe_texture(preset::Fields& v, preset::Material& m) {
   v.field("texture", "What the reflectance is multiplied by: a picture file or an object.", m.texture);
+}
+
+void describe_metal(preset::Fields& v, preset::Material& m) {
+  v.field("metal", "gold, silver, copper, aluminium, brass, or a YAML file of refractiveindex.info with n and k.",
+          m.metal, {.text = preset::Text::file, .names = preset::Names::metal});
+}
+
+void describe_coat_index(preset::Fields& v, preset::Material& m) {
+  v.field("dispersion", "The coat's index of refraction, in air at 588 nm: a number, a file or an object.",
+          m.dispersion);
+}
+
+void describe_tint(preset::Fields& v, preset::Material& m) {
+  v.field("tint",
+          "Part of the light that passes a surface or varnish, each time: a number, a ColorChecker patch or an object.",
+          m.tint);
 }
 
 void describe_roughness(preset::Fields& v, preset::Material& m) {

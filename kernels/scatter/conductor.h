@@ -14,13 +14,24 @@ static inline float conductor_reflectance(float cos_i, float n, float k) {
   return 0.5f * s * (1.0f + (both - across) / (both + across));
 }
 
-// At a wavelength. around: the material before it; -1: air.
+// The material that a path is in; -1: air.
+static inline int material_around(const World* world, const Path* path) {
+  const int object = medium_object(&path->media, world->objects);
+  return object < 0 ? -1 : world->objects[object].material;
+}
+
+// Its index of refraction at a wavelength.
+static inline float index_around(const World* world, const Band* band, int around, int wavelength) {
+  return around < 0                                 ? 1.0f
+         : NEPHROID_JITTER && band->wavelength >= 0 ? index_of_wavelength(world, wavelength)[around]
+                                                    : index_of_cluster(world, band->cluster)[around];
+}
+
+// At a wavelength. around: material_around.
 static inline float conductor_part(const World* world, const DeviceMaterial* material, const Band* band, int around,
                                    float cos_i, int wavelength) {
   __global const float* n_and_k = world->tables.surface_data + material->surface_first + 2 * wavelength;
-  const float n_near = around < 0                                 ? 1.0f
-                       : NEPHROID_JITTER && band->wavelength >= 0 ? index_of_wavelength(world, wavelength)[around]
-                                                                  : index_of_cluster(world, band->cluster)[around];
+  const float n_near = index_around(world, band, around, wavelength);
   return conductor_reflectance(cos_i, n_and_k[0] / n_near, n_and_k[1] / n_near);
 }
 
@@ -40,8 +51,7 @@ static inline bool conductor_scatter(const World* world, Path* path, const Inter
   *sample = reflect_at(path->direction, &at->surface, 1.0f, 1.0f);
   sample->reflectance = 1.0f;
 #if NEPHROID_LOSSES
-  const int object = medium_object(&path->media, world->objects),
-            around = object < 0 ? -1 : world->objects[object].material;
+  const int around = material_around(world, path);
   const float cos_i = -dot(path->direction, sample->normal);
   LEAVE_BY_WAVELENGTH(&path->throughput, band,
                       conductor_parts(world, &at->material, band, around, cos_i, carriers))
