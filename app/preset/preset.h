@@ -87,14 +87,14 @@ struct Material {
   Type type = Type::diffuse;
   Reflectance reflectance;        ///< diffuse, mirror; plastic: of its base, as seen in even light
   std::optional<Texture> texture; ///< diffuse, plastic: what the reflectance is multiplied by
-  Dispersion dispersion;          ///< dielectric; plastic: of the coat, at 588 nm
-  std::string metal = "gold";     ///< conductor: a file with n and k, or a shipped metal
+  Dispersion dispersion;          ///< dielectric; plastic, varnished_metal: of the coat, at 588 nm
+  std::string metal = "gold";     ///< conductor, varnished_metal: a file with n and k, or a shipped metal
   bool absorption = true;         ///< dielectric: use k where the dispersion file has it
-  /// dielectric: the part of the light that passes its surface, each time
+  /// dielectric: the part of the light that passes its surface, each time; varnished_metal: its varnish, each way
   Reflectance tint{Reflectance::Type::constant, 1, {}, {}};
-  double roughness = 0;                     ///< of what is specular and not thin: the root of the alpha of GGX
+  double roughness = 0;                     ///< not of diffuse, thin, varnished_metal: the root of the alpha of GGX
   bool thin = false;                        ///< dielectric: a pane without thickness, not a body
-  std::optional<Texture> roughness_texture; ///< what is specular, but plastic: its green is a factor of the roughness
+  std::optional<Texture> roughness_texture; ///< what is rough, but plastic: its green is a factor of the roughness
   std::optional<Texture> tint_texture;      ///< dielectric: what the tint is multiplied by
   std::optional<Texture> normal_map;        ///< diffuse: red, green, blue are (1 + the normal's part along x, y, z) / 2
   double normal_scale = 1;                  ///< diffuse: of the map's x and y

@@ -16,6 +16,7 @@
 #include "kernels/scatter/mirror.h"
 #include "kernels/scatter/plastic.h"
 #include "kernels/scatter/texture.h"
+#include "kernels/scatter/varnished_metal.h"
 
 // What a path meets at a hit.
 static inline Interaction interaction_at(const World* world, Hit hit) {

@@ -336,9 +336,9 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
     // Only the order of priorities matters.
     const auto rank = std::ranges::count_if(caster.scene.objects,
                                             [&](const scene::Object& o) { return o.priority < object.priority; });
-    hash = hash_of(fmt::format("{} {} {} {} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count,
+    hash = hash_of(fmt::format("{} {} {} {} {} {} {} {} {} {}", object.triangle_count, object.ellipsoid_count,
                                static_cast<int>(material.type), object.smooth, material.absorbs, rank, material.thin,
-                               material.coating_nm, material.alpha),
+                               material.coating_nm, material.alpha, material.coat_n),
                    hash);
     for (const optics::Spectrum* spectrum :
          {&material.n, &material.k, &material.reflectance, &material.tint, &material.coating_n})
