@@ -5,8 +5,8 @@
 #define NEPHROID_MATERIALS (1 << MATERIAL_DIFFUSE) // see.cl has let its light pass coats already
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
-#include "kernels/tracing/eye_path.h"
-#include "kernels/tracing/piece.h"
+#include "kernels/transport/eye_path.h"
+#include "kernels/transport/piece.h"
 #include "kernels/tracing/work_item.h"
 
 // 1: the direct layer is the smooth one.

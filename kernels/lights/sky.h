@@ -12,12 +12,7 @@
 // of the peaks alone where even_sky.cl brings the rest.
 #include "kernels/lights/light.h"
 #include "kernels/tracing/random.h"
-#include "kernels/tracing/shared_types.h"
-
-typedef struct {
-  SKY_TABLES(TABLE_MEMBER)
-  DeviceBackground size;
-} Sky;
+#include "kernels/tracing/sky_tables.h"
 
 // A direction of the sky and its light. density: the chance of being drawn, per steradian. Radiance is rgb * density,
 // for a sky whose grey light has 1 W m^-2 from all directions together.
@@ -55,12 +50,6 @@ static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int 
                           sky_density(sky, sky->texel_cdf, row, column),
                           sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
   return place;
-}
-
-// The place in its bin of a number that has drawn the bin. It is the middle of the number's 2^-24.
-static inline float place_in_bin(__global const float* cdf, int bin, float number) {
-  const float before = chance_before(cdf, bin);
-  return (number + 0x1p-25f - before) / (cdf[bin] - before);
 }
 
 // cdf: sky->texel_cdf, or that of the peaks, if it has any. place: two numbers in [0, 1).

@@ -7,7 +7,7 @@
 #endif
 #define NEPHROID_PLACE_DIFFERENTIALS NEPHROID_SKY_IS_LIGHT
 #include "kernels/photons/launch_types.h"
-#include "kernels/tracing/piece.h"
+#include "kernels/transport/piece.h"
 #include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"
 

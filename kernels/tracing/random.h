@@ -63,3 +63,9 @@ static inline int choose(__global const float* cdf, int count, float u) {
 
 // The chance of all before the chosen one. Its own is cdf[chosen] less that.
 static inline float chance_before(__global const float* cdf, int chosen) { return chosen > 0 ? cdf[chosen - 1] : 0.0f; }
+
+// The place in its bin of a number that has drawn the bin. It is the middle of the number's 2^-24.
+static inline float place_in_bin(__global const float* cdf, int bin, float number) {
+  const float before = chance_before(cdf, bin);
+  return (number + 0x1p-25f - before) / (cdf[bin] - before);
+}

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // All of the scene that a path meets, in one struct.
+#include "kernels/lights/light_types.h"
 #include "kernels/tracing/media.h"
 #include "kernels/tracing/registers.h"
-#include "kernels/lights/sky.h"
+#include "kernels/tracing/sky_tables.h"
 #include "kernels/tracing/surface.h"
 #include "kernels/tracing/throughput.h"
 

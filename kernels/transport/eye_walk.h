@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path from the eye through glass and mirrors to the first diffuse lobe, or out of the scene, in one band.
 // With NEPHROID_HIGHLIGHTS rough surfaces add the light of lamps on the way.
-#include "kernels/tracing/eye_path.h"
+#include "kernels/transport/eye_path.h"
 #include "kernels/transport/scatter_path.h"
 
 #define BEFORE_THE_PATH 0xffffu // the surface's number in random numbers, where its lobe is given

@@ -4,6 +4,7 @@
 
 #include "tests/support/test.h"
 
+#include <algorithm>
 #include <regex>
 
 namespace nephroid::includes_test {
@@ -96,6 +97,15 @@ std::string break_in_ui(const std::string& folder, const std::string& included) 
   return "ui/" + folder + " may not include ui/" + into;
 }
 
+/// The same between the folders of kernels/: each of the first knows those before it, and all others know these.
+std::string break_in_kernels(const std::string& folder, const std::string& included) {
+  if (!included.starts_with("kernels/") || included.ends_with("_types.h")) return "";
+  const std::string into = fs::path(included).parent_path().filename().string();
+  const std::vector<std::string> shared{"tracing", "scatter", "lights", "transport"};
+  if (into == folder || std::ranges::find(shared, into) < std::ranges::find(shared, folder)) return "";
+  return "kernels/" + folder + " may not include kernels/" + into;
+}
+
 /// The engines by their folders: app/engines.cpp includes them.
 Folders engine_folders() {
   std::ifstream list(fs::path(NEPHROID_SOURCE_DIR) / "app/engines.cpp");
@@ -143,6 +153,8 @@ std::vector<std::string> breaks_of_file(const fs::path& file, const fs::path& re
     if (!std::regex_match(line, match, include)) continue;
     std::string wrong = break_of(folder, match.str(1), table);
     if (folder == "ui" && wrong.empty()) wrong = break_in_ui(relative.parent_path().string().substr(3), match.str(1));
+    if (folder == "kernels" && wrong.empty())
+      wrong = break_in_kernels(relative.parent_path().filename().string(), match.str(1));
     if (wrong.empty()) wrong = break_of_engines(relative, match.str(1), engines);
     if (!wrong.empty())
       breaks.push_back(relative.string() + ":" + std::to_string(number) + ": " + match.str(1) + ": " + wrong);
@@ -353,6 +365,12 @@ TEST(Includes, breaks_are_seen) {
             "ui/spectral/dispersion may not include ui/spectral/spectra");
   EXPECT_EQ(break_in_ui("spectral", "ui/spectral/spectra/panel.h"), "");
   EXPECT_EQ(break_in_ui("view", "ui/spectral/spectra/panel.h"), "ui/view may not include ui/spectral/spectra");
+  EXPECT_EQ(break_in_kernels("lights", "kernels/scatter/scatter.h"), "");
+  EXPECT_EQ(break_in_kernels("tracing", "kernels/lights/light_types.h"), "");
+  EXPECT_EQ(break_in_kernels("photons", "kernels/transport/walk.h"), "");
+  EXPECT_EQ(break_in_kernels("tracing", "kernels/lights/sky.h"), "kernels/tracing may not include kernels/lights");
+  EXPECT_EQ(break_in_kernels("environment", "kernels/photons/layers.h"),
+            "kernels/environment may not include kernels/photons");
   const Folders engines{"spectral", "inverse"};
   EXPECT_EQ(break_of_engines("app/cli/spectral/clusters.cpp", "spectral/clusters/clusters.h", engines), "");
   EXPECT_EQ(break_of_engines("ui/spectral/spectra/panel.cpp", "scene/scene.h", engines), "");
