@@ -36,6 +36,13 @@ struct ExportOptions {
 /// The animation's first frame, or the preset itself.
 preset::Preset still(preset::Preset preset) { return preset.animation ? preset::at_frame(preset, 0) : preset; }
 
+/// Whether a run of the preset has light from wall to wall. `prepared` lends its scene.
+bool has_indirect(const preset::Preset& preset, const run::Prepared& prepared, const Watch& watch) {
+  const run::Prepared whole = run::prepare(still(preset), &prepared, watch);
+  return std::ranges::any_of(whole.plan->decisions,
+                             [](const plan::Decision& d) { return d.name == "indirect" && d.runs; });
+}
+
 /// The preset as one of engine 1 that splats photons on matt surfaces and does nothing else. The preset may be of any
 /// engine.
 preset::Preset caustics_only(const ExportOptions& options, const preset::Preset& asked) {
@@ -130,7 +137,8 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
       else
         notes.push_back(fmt::format("'{}' has no picture: no light comes to it through glass or from a mirror",
                                     name_of(prepared.loaded->scene, receiver)));
-    std::ranges::move(formats::write_export(folder, prepared.loaded->scene, asked, caustics, white),
+    std::ranges::move(formats::write_export(folder, prepared.loaded->scene, asked, caustics, white,
+                                            has_indirect(asked, prepared, watch)),
                       std::back_inserter(notes));
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
     for (const formats::Caustic& caustic : caustics)

@@ -47,25 +47,27 @@ bool object_shines(const Settings&, const scene::Scene& scene) {
   });
 }
 
-constexpr Demand rough{"a rough surface", of_materials<scatter::is_rough>},
-    coating{"a coating", of_materials<scatter::is_coated>}, plastic{"plastic", of_materials<scatter::has_coat>},
-    texture{"a texture", of_materials<scatter::has_pictures>}, shining{"an object that shines", object_shines},
-    lens{"a camera with a lens, a shift or parallel rays",
-         [](const Settings&, const scene::Scene&scene) { return !scene.camera.is_plain(); }},
-    sky{"an environment that lights", environment_lights},
-    layers{"spectral.relight", [](const Settings&s, const scene::Scene&) { return s.relight; }},
-    whole_clusters{"spectral.jitter false", [](const Settings&s, const scene::Scene&) { return !s.jitter; }},
-    plain_numbers{"spectral.low_discrepancy false",
-                  [](const Settings&s, const scene::Scene&) { return !s.low_discrepancy; }},
-    walls{"spectral.indirect", [](const Settings&s, const scene::Scene&) { return s.indirect.value_or(false); }},
-    allotted{"spectral.effort",
-             [](const Settings&s, const scene::Scene&) {
-               return s.effort != Effort::automatic && s.effort != Effort::power;
-             }},
-    photon_maps{"the estimator sppm", of_estimator<Estimator::sppm>},
-    tiles{"the estimator tiles", of_estimator<Estimator::tiles>},
-    one_film{"an estimator other than sppm",
-             [](const Settings&s, const scene::Scene&) { return s.estimator != Estimator::sppm; }};
+constexpr Demand rough{"a rough surface", of_materials<scatter::is_rough>};
+constexpr Demand coating{"a coating", of_materials<scatter::is_coated>};
+constexpr Demand plastic{"plastic", of_materials<scatter::has_coat>};
+constexpr Demand texture{"a texture", of_materials<scatter::has_pictures>};
+constexpr Demand shining{"an object that shines", object_shines};
+constexpr Demand sky{"an environment that lights", environment_lights};
+constexpr Demand photon_maps{"the estimator sppm", of_estimator<Estimator::sppm>};
+constexpr Demand tiles{"the estimator tiles", of_estimator<Estimator::tiles>};
+constexpr Demand lens{"a camera with a lens, a shift or parallel rays",
+                      [](const Settings&, const scene::Scene& scene) { return !scene.camera.is_plain(); }};
+constexpr Demand whole_clusters{"spectral.jitter false",
+                                [](const Settings& s, const scene::Scene&) { return !s.jitter; }};
+constexpr Demand plain_numbers{"spectral.low_discrepancy false",
+                               [](const Settings& s, const scene::Scene&) { return !s.low_discrepancy; }};
+constexpr Demand walls{"spectral.indirect",
+                       [](const Settings& s, const scene::Scene&) { return s.indirect.value_or(false); }};
+constexpr Demand allotted{"spectral.effort", [](const Settings& s, const scene::Scene&) {
+                            return s.effort != Effort::automatic && s.effort != Effort::power;
+                          }};
+constexpr Demand one_film{"an estimator that is not sppm",
+                          [](const Settings& s, const scene::Scene&) { return s.estimator != Estimator::sppm; }};
 
 /// What a way cannot do, and why: the rest of a sentence about the demand.
 struct Limit {
@@ -83,8 +85,7 @@ constexpr Limit limits_of_layers[] = {{coating, "parts the wavelengths of a clus
                                       {photon_maps, "adds up colours, not layers"},
                                       {tiles, "sweeps a part of the wavelengths, and a layer holds whole clusters"},
                                       {allotted, "goes by the present light, and layers are for lights to come"}};
-constexpr Limit limits_of_tiles[] = {{layers, "holds whole clusters"},
-                                     {coating, "reflects each wavelength otherwise"},
+constexpr Limit limits_of_tiles[] = {{coating, "reflects each wavelength otherwise"},
                                      {lens, "sees points only"},
                                      {rough, "scatters the corners of a tile"},
                                      {plastic, "reflects a part of the light, which tiles do not follow"},
@@ -96,11 +97,12 @@ constexpr Limit limits_of_variance[] = {{photon_maps, "has no film that all phot
                                         {tiles, "sends its photons on lattices"}};
 constexpr Limit limits_of_random[] = {{one_film, "has no pass of its own for each cluster"}};
 
-/// Empty where nothing asks for what these limits exclude.
+/// A clause for each demand that these limits exclude; empty where there is none.
 std::string why_not(std::span<const Limit> limits, const Settings& settings, const scene::Scene& scene) {
-  const auto found =
-      std::ranges::find_if(limits, [&](const Limit& limit) { return limit.demand.is_there(settings, scene); });
-  return found == limits.end() ? "" : fmt::format("{} {}", found->demand.who, found->why);
+  std::vector<std::string> clauses;
+  for (const Limit& limit : limits)
+    if (limit.demand.is_there(settings, scene)) clauses.push_back(fmt::format("{} {}", limit.demand.who, limit.why));
+  return fmt::format("{}", fmt::join(clauses, "; "));
 }
 
 /// Whether two objects of glass meet, or one is in the other, as far as the spheres about them tell.
@@ -147,7 +149,7 @@ std::string why_no_indirect(const scene::Scene& scene) {
     });
     if (is_outside) return "";
   }
-  if (!plane) return "the scene has no diffuse surface";
+  if (!plane) return "";
   const tracing::ObjectCounts counts = tracing::count_objects(scene);
   if (counts.mirrors > 0) return "";
   return counts.throw_caustics()
@@ -158,45 +160,47 @@ std::string why_no_indirect(const scene::Scene& scene) {
 } // namespace
 
 Agreed agree(const Settings& wanted, const scene::Scene& scene) {
-  Agreed agreed{wanted, {}, {}, {}};
-  Settings& s = agreed.settings;
-  const auto can = [&](const char* field, const char* value, std::span<const Limit> limits, const char* instead) {
-    const std::string why = why_not(limits, s, scene);
+  Agreed agreed;
+  Settings& s = agreed.settings = wanted;
+  // Empty where the value of a field can be done; else its note is written.
+  const auto why_other = [&](const char* field, const char* value, std::span<const Limit> limits, const char* instead) {
+    std::string why = why_not(limits, s, scene);
     if (!why.empty())
-      agreed.notes.push_back(fmt::format("spectral.{} is not {} here, but {}: {}", field, value, instead, why));
-    return why.empty();
+      agreed.notes.push_back(
+          fmt::format("spectral.{}: {} cannot be done here, so it is {}: {}", field, value, instead, why));
+    return why;
   };
-  if (s.relight && !can("relight", "true", limits_of_layers, "false")) s.relight = false;
-  if (!s.jitter && !can("jitter", "false", limits_of_whole_clusters, "true")) s.jitter = true;
+  if (!s.jitter) s.jitter = !why_other("jitter", "false", limits_of_whole_clusters, "true").empty();
+  std::string no_tiles; // though they are wanted
+  if (s.estimator == Estimator::tiles) {
+    no_tiles = why_other("estimator", "tiles", limits_of_tiles, "points");
+    if (!no_tiles.empty()) s.estimator = Estimator::points;
+  }
+  if ((s.effort == Effort::variance && !why_other("effort", "variance", limits_of_variance, "automatic").empty()) ||
+      (s.effort == Effort::random && !why_other("effort", "random", limits_of_random, "automatic").empty()))
+    s.effort = Effort::automatic;
+  agreed.why_no_layers = why_not(limits_of_layers, s, scene);
+  if (s.relight) s.relight = why_other("relight", "true", limits_of_layers, "false").empty();
   if (s.estimator == Estimator::automatic) {
-    std::string why = why_not(limits_of_tiles, s, scene);
+    std::string why =
+        s.relight ? "spectral.relight is true: layers hold whole clusters" : why_not(limits_of_tiles, s, scene);
     if (why.empty()) why = why_points(s, scene);
     s.estimator = why.empty() ? Estimator::tiles : Estimator::points;
     agreed.tiles = {"tiles", why.empty(),
                     why.empty() ? "each photon lights the piece that its cell of a lattice stands for" : why};
-  } else {
-    if (s.estimator == Estimator::tiles && !can("estimator", "tiles", limits_of_tiles, "points"))
-      s.estimator = Estimator::points;
+  } else
     agreed.tiles = {"tiles", s.estimator == Estimator::tiles,
-                    fmt::format("spectral.estimator is {}", preset::word(s.estimator))};
-  }
-  if (s.indirect)
+                    no_tiles.empty() ? fmt::format("spectral.estimator is {}", preset::word(s.estimator)) : no_tiles};
+  if (!s.indirect) {
+    // By what is wanted, not by what is agreed: so is a reference's, which has no layers.
+    agreed.why_no_indirect =
+        wanted.relight ? "spectral.relight is true, and layers are of one reflector each" : why_no_indirect(scene);
+    s.indirect = agreed.why_no_indirect.empty();
+  } else if (!*s.indirect)
     agreed.why_no_indirect = "spectral.indirect is false";
-  else if (s.relight)
-    agreed.why_no_indirect = "layers are of one reflector each, and its light met several";
-  else
-    agreed.why_no_indirect = why_no_indirect(scene);
-  s.indirect = s.indirect.value_or(agreed.why_no_indirect.empty());
-  if (s.effort == Effort::variance && !can("effort", "variance", limits_of_variance, "automatic"))
-    s.effort = Effort::automatic;
-  if (s.effort == Effort::random && !can("effort", "random", limits_of_random, "automatic"))
-    s.effort = Effort::automatic;
   return agreed;
 }
 
-std::string why_no_differentials(const scene::Scene& scene) {
-  constexpr Limit limits[] = {{coating, "reflects each wavelength otherwise"}};
-  return why_not(limits, {}, scene);
-}
+std::string why_no_differentials(const scene::Scene& scene) { return why_not(limits_of_whole_clusters, {}, scene); }
 
 } // namespace nephroid::photons

@@ -14,7 +14,8 @@ namespace nephroid::photons {
 struct Agreed {
   Settings settings;           ///< the estimator is not automatic, and indirect has a value
   plan::Decision tiles;        ///< whether photons are tiles, and why
-  std::string why_no_indirect; ///< where settings.indirect is false
+  std::string why_no_indirect; ///< why settings.indirect is false
+  std::string why_no_layers;   ///< why spectral.relight cannot be done, wanted or not; empty where it can
   /// A sentence for each field that is not as it is wanted: what cannot do what, and what is done in its place.
   std::vector<std::string> notes;
 };

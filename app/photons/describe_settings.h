@@ -108,11 +108,10 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("direct", "Compute the layer \"direct\": light that reaches a diffuse surface unbent.", s.direct);
   v.field("caustic", "Compute the layer \"caustic\": light that met glass or a mirror, then one diffuse surface.",
           s.caustic);
-  v.field(
-      "indirect",
-      "Compute the layer \"indirect\": light that met a diffuse surface before the last one. Without: where diffuse "
-      "surfaces are not all in one plane.",
-      s.indirect);
+  v.field("indirect",
+          "Compute the layer \"indirect\": light that met a diffuse surface before the last one. Without: where "
+          "surfaces may light each other, which those of one plane do not but by a mirror; not with relight.",
+          s.indirect);
   v.field("background", "Compute the layer \"background\": the environment, seen directly and through glass.",
           s.background);
 }

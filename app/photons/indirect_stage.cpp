@@ -35,9 +35,9 @@ PlanPart plan_indirect(const PlanInput& input) {
 
 plan::Decision indirect_decision(const PlanInput& input) {
   const char* const name = "indirect";
-  if (!*input.settings.indirect) return {name, false, input.why_no_indirect, "/spectral/indirect", true};
   const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
   if (!missing.empty()) return {name, false, missing};
+  if (!*input.settings.indirect) return {name, false, input.why_no_indirect, "/spectral/indirect", true};
   return {name, true, std::string("paths from the eye find the light that walls send on") + more_through_glass(input),
           "/spectral/indirect", true};
 }

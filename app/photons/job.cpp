@@ -51,7 +51,8 @@ public:
             const mpi::RankContext& context)
       : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables,
                preset.white.value(), plan.estimates_error ? 2u : 1u},
-        preset_(preset), passes_(plan.tables.batches), preview_(world_, edges_of_previews(plan, scene)),
+        preset_(preset), why_no_layers_(plan.why_no_layers), passes_(plan.tables.batches),
+        preview_(world_, edges_of_previews(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh), !plan.runs(tile_stage),
                      plan.settings.smoothing == Settings::Smoothing::automatic),
         shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight &&
@@ -125,7 +126,10 @@ public:
     if (!world_.relighting) {
       spectrum->why_not =
           "the film adds up colours, and a spectrum is not kept; spectral.relight true keeps a layer for each cluster";
-      spectrum->remedy = "spectral.relight=true";
+      if (why_no_layers_.empty())
+        spectrum->remedy = "spectral.relight=true";
+      else
+        spectrum->why_not += ", but not here: " + why_no_layers_;
       return spectrum;
     }
     for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
@@ -183,6 +187,7 @@ private:
 
   StageContext world_;    ///< used by the stages
   preset::Preset preset_; ///< preset with the present lights
+  std::string why_no_layers_;
   Passes passes_;
   Preview preview_;
   Development development_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // For work on pictures on the host: the surface in the middle of a pixel, where a ray from the camera ends, through
-// glass and by way of mirrors (kernels/transport/eye_path.h does so for pictures); and the pixels that may show glass or
-// a mirror.
+// glass and by way of mirrors (kernels/transport/eye_path.h does so for pictures); and the pixels that may show glass
+// or a mirror.
 #pragma once
 #include "scene/bvh.h"
 #include "scene/scene.h"

@@ -215,6 +215,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   plan.settings = std::move(agreed.settings);
   plan.settings.pixel_samples = pixel_samples(plan.settings, scene);
   plan.notes = std::move(agreed.notes);
+  plan.why_no_layers = std::move(agreed.why_no_layers);
   const Settings& settings = plan.settings;
   plan.tables = make_run_tables(preset, settings, scene, bvh, leave_out);
   PlanInput input{preset, settings, scene, bvh, leave_out, plan.tables, tracing::count_objects(scene)};

@@ -18,6 +18,7 @@ struct RunPart; ///< plan_part.h
 struct RunPlan : plan::Plan {
   Settings settings;
   RunTables tables;
+  std::string why_no_layers;         ///< why spectral.relight cannot be done, wanted or not; empty where it can
   std::vector<const RunPart*> parts; ///< parts that run; stages in the order of their turns in a pass
   bool runs(const RunPart& part) const;
 };

@@ -3,7 +3,6 @@
 #include "optics/fresnel.h"
 #include "scatter/kind.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace nephroid::scatter {
@@ -25,8 +24,7 @@ constinit const Kind kinds::conductor{
         },
     .add_rows =
         [](const Material& material, Rows& rows) {
-          rows.takes_light(
-              std::ranges::any_of(material.reflectance, [&](double r) { return r != material.reflectance[0]; }));
+          rows.takes_light_of(material.reflectance);
           std::vector<double> n_and_k;
           for (std::size_t w = 0; w < material.n.size(); ++w)
             n_and_k.insert(n_and_k.end(), {material.n[w], material.k[w]});

@@ -44,6 +44,8 @@ struct Rows {
   int loss(std::span<const double> coefficients);
   /// Says that the material takes light, as loss() says of its row; by_wavelength: and colours it.
   void takes_light(bool by_wavelength = false);
+  /// The same by what is left of the light: alike at all wavelengths, or not.
+  void takes_light_of(const optics::Spectrum& left);
   /// Adds the rows of a surface that a texture may lie on, and returns the first one's number. factor: of its colour.
   int colour(const optics::Spectrum& colour, double factor, bool is_textured);
   /// Adds items to the table surface_data, and returns where the first one stands.

@@ -47,6 +47,10 @@ void Rows::takes_light(bool by_wavelength) {
   tables.colours_light = tables.colours_light || by_wavelength;
 }
 
+void Rows::takes_light_of(const optics::Spectrum& left) {
+  takes_light(std::ranges::any_of(left, [&](double part) { return part != left[0]; }));
+}
+
 int Rows::colour(const optics::Spectrum& colour, double factor, bool is_textured) {
   const auto add = [&](const optics::Spectrum& primary) {
     for (std::size_t w = 0; w < colour.size(); ++w)

@@ -3,7 +3,6 @@
 #include "optics/fresnel.h"
 #include "scatter/kind.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace nephroid::scatter {
@@ -30,8 +29,7 @@ constinit const Kind kinds::varnished_metal{
         },
     .add_rows =
         [](const Material& material, Rows& rows) {
-          rows.takes_light(
-              std::ranges::any_of(material.reflectance, [&](double r) { return r != material.reflectance[0]; }));
+          rows.takes_light_of(material.reflectance);
           std::vector<double> values{material.coat_n};
           for (std::size_t w = 0; w < material.n.size(); ++w)
             values.insert(values.end(), {material.n[w] / material.coat_n, material.k[w] / material.coat_n,

@@ -29,8 +29,10 @@ preset::Settings reference(const preset::Preset& preset, int passes) {
   const auto& recipe = preset.reference->settings;
   preset::Settings settings = recipe ? *recipe : preset.settings;
   photons::Settings& s = settings.as<photons::Settings>();
+  const photons::Settings& run = preset.settings.as<photons::Settings>();
   if (!recipe) s = brute_force(s);
-  s.smoothing = photons::Settings::Smoothing::off; // it would be a bias
+  if (!s.indirect) s.indirect = run.relight ? false : run.indirect; // as the run's (photons/capabilities.h)
+  s.smoothing = photons::Settings::Smoothing::off;                  // it would be a bias
   if (s.effort == photons::Settings::Effort::automatic) s.effort = photons::Settings::Effort::power;
   s.pixel_samples = std::max(s.pixel_samples.value_or(0), passes); // the direct layer converges like the caustic layer
   return settings;

@@ -59,7 +59,7 @@ static inline float row_share(const World* world, int light, const Band* band) {
     return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
 #endif
   const int row = light * world->scene.cluster_count + band->cluster;
-  return world->tables.reflected_xyz[row * world->scene.reflector_count].w; // any reflector's is a white one's
+  return world->tables.reflected_xyz[row * max(world->scene.reflector_count, 1)].w; // any reflector's is a white one's
 }
 
 // The share of a light's power that a band begins with. cluster_share: a lamp's share in the whole cluster.

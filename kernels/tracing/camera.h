@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the eye begin: their direction, and the wavelength cluster of one that meets glass.
+#include "kernels/tracing/frame.h"
 #include "kernels/tracing/path.h"
 #include "kernels/tracing/random.h"
 

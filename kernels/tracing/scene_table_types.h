@@ -35,7 +35,8 @@
     coating: [401] its index of refraction; plastic: COAT_PARTS + COAT_COSINES items */ \
   TABLE(float, reflectance, "reflectance") /* [reflector][401] */ \
   TABLE(float4, light_xyz, "light spectra") /* [row][401]: share * (xbar, ybar, zbar), share */ \
-  TABLE(float4, reflected_xyz, "reflected colours by cluster") /* [row][cluster][reflector]; w: as of a white one */
+  TABLE(float4, reflected_xyz, "reflected colours by cluster") /* [row][cluster][reflector]; w: as of a white one,
+    which stands there alone where there is no reflector */
 
 // Where wavelengths lie on the parameter s, and dn/ds: differential.h.
 #define STRETCH_TABLES(TABLE) \

@@ -28,13 +28,14 @@ const char* const texture = R"(scene.materials.screen.texture={"type": "checkerb
 TEST(Capabilities, WhatTilesCannotIsDoneByPointsWithANote) {
   EXPECT_THAT(agreed({"spectral.estimator=tiles"}).notes, IsEmpty());
   for (const auto& [asks, note] :
-       {std::pair{rough,
-                  "spectral.estimator is not tiles here, but points: a rough surface scatters the corners of a tile"},
-        {coated, "spectral.estimator is not tiles here, but points: a coating reflects each wavelength otherwise"},
+       {std::pair{rough, "spectral.estimator: tiles cannot be done here, so it is points: a rough surface scatters the "
+                         "corners of a tile"},
+        {coated, "spectral.estimator: tiles cannot be done here, so it is points: a coating reflects each wavelength "
+                 "otherwise"},
         {plastic, "plastic reflects a part of the light, which tiles do not follow"},
         {texture, "a texture has many colours, and a tile has one"},
         {lens, "a camera with a lens, a shift or parallel rays sees points only"},
-        {"spectral.relight=true", "spectral.relight is not true here, but false: the estimator tiles"},
+        {"spectral.relight=true", "spectral.relight: true cannot be done here, so it is false: the estimator tiles"},
         {"spectral.low_discrepancy=false", "spectral.low_discrepancy false asks for other starts"},
         {"spectral.jitter=false", "spectral.jitter false sends a cluster one way"}}) {
     const photons::Agreed got = agreed({"spectral.estimator=tiles", asks});
@@ -51,7 +52,19 @@ TEST(Capabilities, WhatLayersCannotIsRenderedWithoutThemWithANote) {
                                  "spectral.estimator=sppm", "spectral.effort=equal"}) {
     const photons::Agreed got = agreed({"spectral.relight=true", asks});
     EXPECT_FALSE(got.settings.relight) << asks;
-    EXPECT_THAT(got.notes, ElementsAre(StartsWith("spectral.relight is not true here, but false: "))) << asks;
+    EXPECT_THAT(got.notes, ElementsAre(StartsWith("spectral.relight: true cannot be done here, so it is false: ")))
+        << asks;
+    EXPECT_FALSE(agreed({asks}).why_no_layers.empty()) << asks;
+  }
+  EXPECT_TRUE(agreed({}).why_no_layers.empty());
+  EXPECT_THAT(agreed({"spectral.relight=true", coated, lens}).notes,
+              ElementsAre(AllOf(HasSubstr("a coating parts"), HasSubstr("; a camera with a lens"))))
+      << "all at once";
+  for (const preset::Overrides& asks : {preset::Overrides{"spectral.effort=random", "spectral.estimator=points"},
+                                        {"spectral.estimator=tiles", rough}}) {
+    preset::Overrides with_layers = asks;
+    with_layers.emplace_back("spectral.relight=true");
+    EXPECT_TRUE(agreed(with_layers).settings.relight) << "what stands in its way is not done: " << asks[0];
   }
 }
 
@@ -59,8 +72,8 @@ TEST(Capabilities, ACoatingHasAWavelengthForEachPath) {
   EXPECT_FALSE(agreed({"spectral.jitter=false"}).settings.jitter);
   const photons::Agreed got = agreed({"spectral.jitter=false", coated});
   EXPECT_TRUE(got.settings.jitter);
-  EXPECT_THAT(got.notes, ElementsAre("spectral.jitter is not false here, but true: a coating reflects each wavelength "
-                                     "otherwise"));
+  EXPECT_THAT(got.notes, ElementsAre("spectral.jitter: false cannot be done here, so it is true: a coating "
+                                     "reflects each wavelength otherwise"));
 }
 
 TEST(Capabilities, AnEffortIsOfTheEstimatorsThatMeasureIt) {

@@ -198,7 +198,6 @@ void InspectorPanel::draw_spectrum(const Context& context) {
   for (const std::string& note : spectrum->notes) draw_wrapped(colour::quiet_text, note);
 }
 
-/// What the remedy contradicts is said once it is tried.
 void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpectrum& none) {
   draw_wrapped(colour::quiet_text, "No spectrum: " + none.why_not + ".");
   if (none.remedy.empty()) return;

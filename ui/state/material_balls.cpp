@@ -84,9 +84,9 @@ preset::Preset MaterialBalls::scene_of(const Subject& subject) {
   preset::Preset preset = preset::read_json(std::move(scene), subject.source);
   auto& settings = preset.settings.as<photons::Settings>();
   const preset::Material& material = subject.material;
-  // One way for a whole cluster leaves no coloured noise, and bends light wrong by less than a pixel. What parts the
-  // wavelengths needs one for each.
-  settings.jitter = material.coating || material.tint_texture;
+  // One way for a whole cluster leaves no coloured noise, and bends light wrong by less than a pixel.
+  settings.jitter = false;
+  settings.indirect = false;
   settings.threshold_deg = 0.2;
   settings.effort = photons::Settings::Effort::power; // measuring first would take as long as the picture
   settings.photons_per_pass = 1 << 15;

@@ -6,6 +6,7 @@
 #include "base/json_output.h"
 #include "cli/spectral/wavelength_runs.h"
 #include "cli/verb.h"
+#include "photons/capabilities.h"
 #include "photons/clusters/scene_clusters.h"
 #include "preset/origins.h"
 #include "preset/read.h"
@@ -56,7 +57,7 @@ std::vector<int> rendered(const std::vector<int>& cluster, const std::vector<boo
 
 std::vector<Row> make_rows(const preset::Preset& preset, const scene::Scene& scene, const Answer& answer) {
   std::vector<bool> lit(optics::wavelength_count, true);
-  const photons::Settings& settings = spectral::settings(preset);
+  const photons::Settings settings = photons::agree(spectral::settings(preset), scene).settings;
   if (preset.leave_out) lit = tracing::lit_wavelengths(scene);
   std::vector<Row> rows;
   for (const std::vector<int>& cluster : photons::scene_clusters(settings, scene)) {

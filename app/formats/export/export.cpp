@@ -120,18 +120,17 @@ Caustic::Caustic(const scene::Scene& scene, const Receiver& on, const job::Pictu
 }
 
 std::vector<std::string> write_export(const fs::path& folder, const scene::Scene& scene, const preset::Preset& preset,
-                                      const std::vector<Caustic>& caustics, double white) {
-  Json all{
-      {"program", "Nephroid " + version()},
-      {"preset", preset.name},
-      {"unit", "luminous watts: of 683 lumens"},
-      {"white", white},
-      {"resolution", {scene.camera.width, scene.camera.height}},
-      {"indirect", Json::parse(preset::to_json(preset)).value("/spectral/indirect"_json_pointer, Json(false)) != false},
-      {"caustics", Json::array()},
-      {"matt", Json::object()},
-      {"area_lights", area_lights(scene)},
-      {"surroundings", nullptr}};
+                                      const std::vector<Caustic>& caustics, double white, bool indirect) {
+  Json all{{"program", "Nephroid " + version()},
+           {"preset", preset.name},
+           {"unit", "luminous watts: of 683 lumens"},
+           {"white", white},
+           {"resolution", {scene.camera.width, scene.camera.height}},
+           {"indirect", indirect},
+           {"caustics", Json::array()},
+           {"matt", Json::object()},
+           {"area_lights", area_lights(scene)},
+           {"surroundings", nullptr}};
   const std::string glb = gltf_of(scene, preset, caustics).bytes(); // what it throws leaves the older export
   for (const fs::path& old : caustics_in(folder)) fs::remove(old);
   fs::remove(folder / surroundings_file);

@@ -48,9 +48,11 @@ struct Caustic {
 inline constexpr const char* list_file = "caustics.json";
 
 /// scene.glb, a picture of each caustic, surroundings.exr where the scene has some, caustics.json and blender.py, each
-/// whole. white: what shows the picture well. Returns what no glTF file holds, a sentence each.
+/// whole. white: what shows the picture well; indirect: whether the other program has light from wall to wall. Returns
+/// what no glTF file holds, a sentence each.
 std::vector<std::string> write_export(const std::filesystem::path& folder, const scene::Scene& scene,
-                                      const preset::Preset& preset, const std::vector<Caustic>& caustics, double white);
+                                      const preset::Preset& preset, const std::vector<Caustic>& caustics, double white,
+                                      bool indirect);
 
 /// A script of app/formats/export/*.py.
 struct ExportScript {

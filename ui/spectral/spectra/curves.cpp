@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "photons/capabilities.h"
 #include "photons/clusters/scene_clusters.h"
 #include "photons/effort/effort.h"
 #include "scatter/spectra.h"
@@ -106,7 +107,7 @@ std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset,
     seen->surroundings.push_back(scene.lights[i]);
   seen->importance_geometry = photons::importance_geometry(spectral::settings(preset), scene, bvh);
   seen->settings = spectral::settings(preset);
-  seen->clusters = photons::scene_clusters(spectral::settings(preset), scene);
+  seen->clusters = photons::scene_clusters(photons::agree(spectral::settings(preset), scene).settings, scene);
   return seen;
 }
 

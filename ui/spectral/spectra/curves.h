@@ -17,8 +17,8 @@ struct SeenByGlass {
   std::vector<std::string> materials;     ///< names of Scene::materials, in whose order the shares are
   std::vector<scene::Light> surroundings; ///< the sun of a sky, the environment where it is a light
   photons::ImportanceGeometry importance_geometry;
-  photons::Settings settings;             ///< the run's,
-  std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
+  photons::Settings settings;             ///< the preset's,
+  std::vector<std::vector<int>> clusters; ///< what a run groups by them
   bool operator==(const SeenByGlass&) const = default;
 
   /// Traces rays only where the preset's effort asks for them.
