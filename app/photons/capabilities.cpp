@@ -59,8 +59,6 @@ constexpr Demand lens{"a camera with a lens, a shift or parallel rays",
                       [](const Settings&, const scene::Scene& scene) { return !scene.camera.is_plain(); }};
 constexpr Demand whole_clusters{"spectral.jitter false",
                                 [](const Settings& s, const scene::Scene&) { return !s.jitter; }};
-constexpr Demand plain_numbers{"spectral.low_discrepancy false",
-                               [](const Settings& s, const scene::Scene&) { return !s.low_discrepancy; }};
 constexpr Demand walls{"spectral.indirect",
                        [](const Settings& s, const scene::Scene&) { return s.indirect.value_or(false); }};
 constexpr Demand allotted{"spectral.effort", [](const Settings& s, const scene::Scene&) {
@@ -90,8 +88,7 @@ constexpr Limit limits_of_tiles[] = {{coating, "reflects each wavelength otherwi
                                      {rough, "scatters the corners of a tile"},
                                      {plastic, "reflects a part of the light, which tiles do not follow"},
                                      {texture, "has many colours, and a tile has one"},
-                                     {whole_clusters, "sends a cluster one way, and tiles sweep it"},
-                                     {plain_numbers, "asks for other starts than a lattice's"}};
+                                     {whole_clusters, "sends a cluster one way, and tiles sweep it"}};
 constexpr Limit limits_of_whole_clusters[] = {{coating, "reflects each wavelength otherwise"}};
 constexpr Limit limits_of_variance[] = {{photon_maps, "has no film that all photons share"},
                                         {tiles, "sends its photons on lattices"}};
@@ -118,8 +115,8 @@ bool glass_meets_glass(const scene::Scene& scene) {
 
 /// Why points have less error than tiles, which could be (docs/notebook/tiles.md); empty where they have more.
 std::string why_points(const Settings& wanted, const scene::Scene& scene) {
-  if (wanted.method == Settings::Method::brute_force || wanted.effort != Effort::automatic)
-    return "spectral.method or effort ask for points";
+  if (wanted.method == Settings::Method::brute_force || wanted.effort != Effort::automatic || !wanted.low_discrepancy)
+    return "spectral.method, effort or low_discrepancy ask for points";
   if (environment_lights(wanted, scene))
     return "an environment has too many directions: a lattice for each would be coarse";
   if (std::ranges::any_of(

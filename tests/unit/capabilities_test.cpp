@@ -36,7 +36,6 @@ TEST(Capabilities, WhatTilesCannotIsDoneByPointsWithANote) {
         {texture, "a texture has many colours, and a tile has one"},
         {lens, "a camera with a lens, a shift or parallel rays sees points only"},
         {"spectral.relight=true", "spectral.relight: true cannot be done here, so it is false: the estimator tiles"},
-        {"spectral.low_discrepancy=false", "spectral.low_discrepancy false asks for other starts"},
         {"spectral.jitter=false", "spectral.jitter false sends a cluster one way"}}) {
     const photons::Agreed got = agreed({"spectral.estimator=tiles", asks});
     EXPECT_THAT(got.notes, Contains(HasSubstr(note))) << asks;
