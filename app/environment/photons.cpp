@@ -23,7 +23,7 @@ preset::Preset without_stop(preset::Preset preset) {
 photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) {
   photons::Settings photons;
   photons.caustic = settings(preset).cast;
-  photons.indirect = false; // the joined picture has no layer of it
+  photons.indirect = false;           // the joined picture has no layer of it
   photons.photons_per_pass = 1 << 17; // only after two passes a draw says how noisy a layer is
   return photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
 }

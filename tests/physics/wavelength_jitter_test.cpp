@@ -312,6 +312,10 @@ TEST(PixelSpectrum, WithoutLayersSaysWhatToSwitchOn) {
   EXPECT_TRUE(spectrum->layers.empty());
   EXPECT_THAT(spectrum->why_not, HasSubstr("spectral.relight"));
   EXPECT_EQ(spectrum->remedy, "spectral.relight=true");
+  spectral::settings(p).indirect = true;
+  const auto none = spectrum_of(*finished(p), {5, 5});
+  EXPECT_THAT(none->why_not, HasSubstr("but not here: spectral.indirect is light that met several reflectors"));
+  EXPECT_EQ(none->remedy, "") << "layers are not offered where they cannot be";
   EXPECT_EQ(spectrum_of(*job, {5, size}), nullptr) << "outside of the picture";
   EXPECT_EQ(spectrum_of(*job, {-1, 5}), nullptr);
 }

@@ -141,13 +141,12 @@ TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit) {
   EXPECT_FALSE(spectral::settings(*workbench.preset()).relight);
 }
 
-TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered) {
+TEST_F(InspectorTest, SpectraThatCannotBeAreNotOffered) {
   run_through_with("indirect");
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
-  ASSERT_TRUE(until([&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
-  click_on("keep spectra");
-  EXPECT_FALSE(spectral::settings(*workbench.preset()).relight);
-  EXPECT_EQ(workbench.edits()->undo_label(), "");
+  ASSERT_TRUE(until([&] { return workbench.run().spectrum() != nullptr; }));
+  frames(2);
+  EXPECT_FALSE(inspector().place_of("keep spectra"));
 }
 
 TEST_F(InspectorTest, AltAndADragTakesARectangle) {

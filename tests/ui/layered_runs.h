@@ -13,7 +13,8 @@ namespace nephroid::test {
 class LayeredJob : public FakeJob, public job::SpectrumSource {
 public:
   LayeredJob(const preset::Preset& preset, FakeSettings& runs)
-      : FakeJob(preset, runs), relights_(spectral::settings(preset).relight), size_(preset.scene.camera.resolution) {}
+      : FakeJob(preset, runs), relights_(spectral::settings(preset).relight),
+        can_relight_(!spectral::settings(preset).indirect.value_or(false)), size_(preset.scene.camera.resolution) {}
 
   static std::array<float, 3> caustic(int x, int y) {
     return {static_cast<float>(x) / 64, static_cast<float>(y) / 48, 0};
@@ -44,7 +45,7 @@ public:
     made->pixel = pixel;
     if (!relights_) {
       made->why_not = "spectral.relight is false";
-      made->remedy = "spectral.relight=true";
+      if (can_relight_) made->remedy = "spectral.relight=true";
       return made;
     }
     made->layers = {{"direct", std::vector<double>(optics::wavelength_count, pixel[0])},
@@ -53,7 +54,7 @@ public:
   }
 
 private:
-  bool relights_;
+  bool relights_, can_relight_;
   std::array<int, 2> size_;
 };
 
