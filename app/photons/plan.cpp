@@ -212,7 +212,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
                   const scene::Bvh& bvh, const tracing::LeaveOut& leave_out) {
   Agreed agreed = agree(wanted, scene);
   RunPlan plan;
-  plan.settings = std::move(agreed.settings);
+  plan.settings = agreed.settings;
   plan.settings.pixel_samples = pixel_samples(plan.settings, scene);
   plan.notes = std::move(agreed.notes);
   plan.why_no_layers = std::move(agreed.why_no_layers);
