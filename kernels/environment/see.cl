@@ -4,9 +4,9 @@
 #define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
-#include "kernels/transport/piece.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/eye_walk.h"
+#include "kernels/transport/piece.h"
 
 static inline DeviceEnd nowhere(void) {
   DeviceEnd end;

@@ -5,9 +5,9 @@
 #define NEPHROID_MATERIALS (1 << MATERIAL_DIFFUSE) // see.cl has let its light pass coats already
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
+#include "kernels/tracing/work_item.h"
 #include "kernels/transport/eye_path.h"
 #include "kernels/transport/piece.h"
-#include "kernels/tracing/work_item.h"
 
 // 1: the direct layer is the smooth one.
 #ifndef NEPHROID_COARSE

@@ -7,9 +7,9 @@
 #endif
 #define NEPHROID_PLACE_DIFFERENTIALS NEPHROID_SKY_IS_LIGHT
 #include "kernels/photons/launch_types.h"
-#include "kernels/transport/piece.h"
-#include "kernels/transport/eye_walk.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_walk.h"
+#include "kernels/transport/piece.h"
 
 // XYZ of what a path leaves of a colour: in the wavelength that leads, or in all of them, as coloured_light does.
 static inline float3 shown_after(const Background* background, float3 rgb, const Throughput* throughput,

@@ -5,8 +5,8 @@
 // first diffuse surface, but for even light of the environment (sky.h), at which paths end here. It also brings that of
 // narrow spots, where the pixel shows no glass and no mirror.
 #include "kernels/photons/launch_types.h"
-#include "kernels/transport/eye_path.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_path.h"
 #include "kernels/transport/scatter_path.h"
 
 typedef struct {

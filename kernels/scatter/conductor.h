@@ -35,28 +35,34 @@ static inline float conductor_part(const World* world, const DeviceMaterial* mat
   return conductor_reflectance(cos_i, n_and_k[0] / n_near, n_and_k[1] / n_near);
 }
 
-static inline Parts conductor_parts(const World* world, const DeviceMaterial* material, const Band* band, int around,
-                                    float cos_i, const Carriers* carriers) {
-  const int4 w = carriers->wavelengths;
-  const Parts parts = {(float4)(conductor_part(world, material, band, around, cos_i, w.x),
-                                conductor_part(world, material, band, around, cos_i, w.y),
-                                conductor_part(world, material, band, around, cos_i, w.z),
-                                conductor_part(world, material, band, around, cos_i, w.w)),
-                       conductor_part(world, material, band, around, cos_i, carriers->middle)};
-  return parts;
-}
-
-static inline bool conductor_scatter(const World* world, Path* path, const Interaction* at, const Band* band, float u,
-                                     ScatterSample* sample) {
-  *sample = reflect_at(path->direction, &at->surface, 1.0f, 1.0f);
-  sample->reflectance = 1.0f;
 #if NEPHROID_LOSSES
-  const int around = material_around(world, path);
-  const float cos_i = -dot(path->direction, sample->normal);
-  LEAVE_BY_WAVELENGTH(&path->throughput, band,
-                      conductor_parts(world, &at->material, band, around, cos_i, carriers))
+#define METAL_TAKES(word) \
+  const int around = material_around(world, path); \
+  const float cos_i = -dot(path->direction, sample->normal); \
+  LEAVE_BY_WAVELENGTH(&path->throughput, band, word##_parts(world, &at->material, band, around, cos_i, carriers))
+#else
+#define METAL_TAKES(word)
 #endif
-  return true;
-}
 
-MATERIAL_WITHOUT_BASE(conductor)
+// The verbs of a metal, whose reflectance at a wavelength is word_part (see conductor_part).
+#define METAL(word) \
+  static inline Parts word##_parts(const World* world, const DeviceMaterial* material, const Band* band, int around, \
+                                   float cos_i, const Carriers* carriers) { \
+    const int4 w = carriers->wavelengths; \
+    const Parts parts = {(float4)(word##_part(world, material, band, around, cos_i, w.x), \
+                                  word##_part(world, material, band, around, cos_i, w.y), \
+                                  word##_part(world, material, band, around, cos_i, w.z), \
+                                  word##_part(world, material, band, around, cos_i, w.w)), \
+                         word##_part(world, material, band, around, cos_i, carriers->middle)}; \
+    return parts; \
+  } \
+  static inline bool word##_scatter(const World* world, Path* path, const Interaction* at, const Band* band, float u, \
+                                    ScatterSample* sample) { \
+    *sample = reflect_at(path->direction, &at->surface, 1.0f, 1.0f); \
+    sample->reflectance = 1.0f; \
+    METAL_TAKES(word) \
+    return true; \
+  } \
+  MATERIAL_WITHOUT_BASE(word)
+
+METAL(conductor)

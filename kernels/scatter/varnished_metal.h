@@ -23,28 +23,4 @@ static inline float varnished_metal_part(const World* world, const DeviceMateria
   return coat + passes * passes * below / (1.0f - coat * below);
 }
 
-static inline Parts varnished_metal_parts(const World* world, const DeviceMaterial* material, const Band* band,
-                                          int around, float cos_i, const Carriers* carriers) {
-  const int4 w = carriers->wavelengths;
-  const Parts parts = {(float4)(varnished_metal_part(world, material, band, around, cos_i, w.x),
-                                varnished_metal_part(world, material, band, around, cos_i, w.y),
-                                varnished_metal_part(world, material, band, around, cos_i, w.z),
-                                varnished_metal_part(world, material, band, around, cos_i, w.w)),
-                       varnished_metal_part(world, material, band, around, cos_i, carriers->middle)};
-  return parts;
-}
-
-static inline bool varnished_metal_scatter(const World* world, Path* path, const Interaction* at, const Band* band,
-                                           float u, ScatterSample* sample) {
-  *sample = reflect_at(path->direction, &at->surface, 1.0f, 1.0f);
-  sample->reflectance = 1.0f;
-#if NEPHROID_LOSSES
-  const int around = material_around(world, path);
-  const float cos_i = -dot(path->direction, sample->normal);
-  LEAVE_BY_WAVELENGTH(&path->throughput, band,
-                      varnished_metal_parts(world, &at->material, band, around, cos_i, carriers))
-#endif
-  return true;
-}
-
-MATERIAL_WITHOUT_BASE(varnished_metal)
+METAL(varnished_metal)
