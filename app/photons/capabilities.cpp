@@ -73,7 +73,7 @@ struct Limit {
   const char* why;
 };
 
-constexpr Limit limits_of_layers[] = {{coating, "parts the wavelengths of a cluster, which a layer holds together"},
+constexpr Limit limits_of_layers[] = {{coating, "splits the wavelengths of a cluster, which a layer holds together"},
                                       {plastic, "reflects a part of the light, and a layer holds what is scattered"},
                                       {texture, "has many colours, and a layer is of one"},
                                       {shining, "sends light of its own, and a layer holds what is scattered"},

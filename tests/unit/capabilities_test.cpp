@@ -57,7 +57,7 @@ TEST(Capabilities, WhatLayersCannotIsRenderedWithoutThemWithANote) {
   }
   EXPECT_TRUE(agreed({}).why_no_layers.empty());
   EXPECT_THAT(agreed({"spectral.relight=true", coated, lens}).notes,
-              ElementsAre(AllOf(HasSubstr("a coating parts"), HasSubstr("; a camera with a lens"))))
+              ElementsAre(AllOf(HasSubstr("a coating splits"), HasSubstr("; a camera with a lens"))))
       << "all at once";
   for (const preset::Overrides& asks : {preset::Overrides{"spectral.effort=random", "spectral.estimator=points"},
                                         {"spectral.estimator=tiles", rough}}) {
