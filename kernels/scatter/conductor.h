@@ -44,7 +44,7 @@ static inline float conductor_part(const World* world, const DeviceMaterial* mat
 #define METAL_TAKES(word)
 #endif
 
-// The verbs of a metal, whose reflectance at a wavelength is word_part (see conductor_part).
+// The verbs of a metal: METAL(conductor) makes them of conductor_part, its reflectance at a wavelength.
 #define METAL(word) \
   static inline Parts word##_parts(const World* world, const DeviceMaterial* material, const Band* band, int around, \
                                    float cos_i, const Carriers* carriers) { \
