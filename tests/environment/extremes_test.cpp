@@ -99,7 +99,7 @@ constexpr double floor_at = 1.5;
 /// The ball as if it were not there, over a floor, seen from above.
 preset::Preset over_nothing(bool ball) {
   preset::Preset p =
-      floor_scene(floor_below, {"scene.materials.glass.dispersion=1", "environment.photons=300000",
+      floor_scene(floor_below, {"scene.materials.glass.dispersion=1", "environment.photons=40000",
                                 "environment.resolution=96", "environment.spheres=16", "stop.passes=16"});
   if (!ball) p.scene.objects[0].transform.translate = {0, 0, 1000};
   p.scene.lights = {lamp({0, -1, 0})};

@@ -212,7 +212,7 @@ TEST_F(EnvironmentView, ABallLensHasItsFocusWhereRaysMeet) {
              facing_quad(fmt::format("receiver {}", i), distances[static_cast<std::size_t>(i)] * way, -way, 0.1);
   }
   preset::Preset p = ball_and(quads, {"environment.resolution=96", "environment.spheres=20", "environment.reach=1",
-                                      "environment.photons=30000", "stop.passes=1"});
+                                      "environment.photons=15000", "stop.passes=1"});
   for (int i = 0; i < count; ++i) p.scene.lights.push_back(lamp(scene::even_direction(i, count)));
   const auto job = job_of(p);
   const double y = y_of_lamp(p);
@@ -263,7 +263,7 @@ TEST_F(EnvironmentView, AFloorGetsThePowerThatLeavesTheBallTowardsIt) {
   for (const double depth : {1.5, 3.0}) {
     preset::Preset p =
         ball_and(facing_quad("floor", {0, -depth, 0}, {0, 1, 0}, 12),
-                 {"environment.resolution=96", "environment.photons=100000", "scene.camera.resolution=[96, 96]"});
+                 {"environment.resolution=96", "environment.photons=50000", "scene.camera.resolution=[64, 64]"});
     p.scene.lights = {lamp({0, -1, 0}, 2)};
     look(p, {0, -1.1, 0}, {0, -3, 0}, 120);
     const double half =
