@@ -41,7 +41,7 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
 using Edit = std::function<void(preset::Preset&)>;
 
 const std::string environment_text =
-    test::lamps_text("[32, 24]", R"("directions": 26, "photons": 2048, "spheres": 2, "resolution": 16)");
+    test::lamps_text("[16, 12]", R"("directions": 26, "photons": 256, "spheres": 2, "resolution": 8)");
 
 class FailingMemory : public testing::Test {
 protected:
@@ -131,7 +131,7 @@ TEST_F(FailingMemory, EnvironmentRunsAreMadeAnew) {
 }
 
 TEST_F(FailingMemory, InverseRunsAreMadeAnew) {
-  open(test::inverse_text(2));
+  open(test::inverse_text(2, 8)); // through so few facets the judge sends the fewest rays
   expect_it_survives([](preset::Preset& p) { inverse::settings(p).thickness_mm += 1; });
 }
 
