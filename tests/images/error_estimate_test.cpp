@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run's own estimate of its error (measure/measured_job.h) against its true error, for every shipped preset and with
-// few and many photons: eight independent runs of each, judged by a long one that is not smoothed.
+// few and many photons: four independent runs of each, judged by a long one that is not smoothed.
 #include "measure/measured_job.h"
 #include "tests/support/test.h"
 
@@ -13,7 +13,7 @@
 
 namespace nephroid::error_estimate_test {
 
-constexpr int runs = 8;
+constexpr int runs = 4;
 
 preset::Preset small(const std::string& name, int photons_per_pass, std::uint64_t seed) {
   preset::Preset p = preset::read_preset(name);
@@ -88,8 +88,8 @@ TEST_P(ErrorEstimate, IsTheTrueErrorWithinAQuarter) {
     RecordProperty(metric + "_mean", std::to_string(sum));
     RecordProperty(metric + "_lowest", std::to_string(lowest));
     RecordProperty(metric + "_highest", std::to_string(highest));
-    // A single run's ratio scatters by 3 to 10 %, because so small a picture is a mean of few pixels; that of eight by
-    // a third of it.
+    // A single run's ratio scatters by 3 to 10 %, because so small a picture is a mean of few pixels; that of four by
+    // half of it.
     // Most pixels of the prism have no photon yet: there the estimate of CIELAB is a guess
     // (docs/notebook/smoothing.md).
     if (name == "spectral/prism" && metric != "rel_l2") continue;
