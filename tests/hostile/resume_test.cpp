@@ -49,7 +49,7 @@ protected:
       "environment": "sky.exr", "lights": [{"type": "directional", "direction": [0, -1, 0]}],
       "materials": {"g": {"type": "dielectric", "dispersion": "glass.yml"}}, "objects": [{"mesh": "a.obj", "material": "g"}, {"mesh": "b.gltf", "material": "g", "transform": {"translate": [5, 0, 0]}}]}})");
     write("inverse.json", R"({"engine": "inverse", "stop": {"passes": 1}, "scene": {"camera": {"resolution": [16, 16]}},
-      "inverse": {"facets": [32, 32], "cells": [16, 16], "index": "glass.yml",
+      "inverse": {"facets": [16, 16], "cells": [16, 16], "index": "glass.yml",
                   "receivers": [{"distance_mm": 100, "picture": "wanted.exr"}, {"distance_mm": 200, "picture": {"type": "ring"}}]}})");
     write("environment.json",
           R"({"engine": "environment", "stop": {"passes": 1}, "environment": {"directions": 26, "spheres": 2,
