@@ -11,6 +11,8 @@ what an earlier one wrote. What is cut, and nothing else (CUT and cut_short):
 - `run` has one pass, a picture of 64 x 64 pixels, no reference, few photons, few facets and a small bake, and of an
   animation two frames. Where the command itself has at most 2 passes it keeps them. Before that, `plan` is asked about
   the same preset and settings as they stand, at full size.
+- A `run` or `plan` of a shipped preset that stands on several pages is run once; a later page gets a copy of its
+  folder.
 - `export` renders its pictures of light, 64 pixels wide, for a second each.
 - `check` is run by tests of its own; here its arguments are checked.
 - a window opens on a virtual display, with 3 frames and a screenshot. Where there is no Xvfb, it is not run.
@@ -35,7 +37,7 @@ from documents import Page, help_page  # noqa: E402
 ROOT = Path(__file__).resolve().parents[2]
 CUT = ["--set", "scene.camera.resolution=[64,64]", "--set", "reference=null"]
 CUT_OF_ENGINE = {"spectral": ["--set", "spectral.photons_per_pass=1024"],
-                 "inverse": ["--set", "inverse.facets=[32,32]"],
+                 "inverse": ["--set", "inverse.facets=[16,16]", "--set", "inverse.cells=[16,16]"],
                  "environment": ["--set", "environment.photons=1024", "--set", "environment.resolution=16", "--set",
                                  "environment.spheres=4",
                                  "--set", "environment.lights=6"]}
@@ -108,6 +110,9 @@ class Runner:
         self.verbs = re.findall(r"^  ([a-z]+) ", self.help_of("").split("Verbs:")[1], re.M)
         self.presets = set(re.findall(r"^(\S+)", self.text("presets"), re.M))
         self.own = set()  # presets that the page gives
+        self.planned = {}  # of what `plan` was asked about a shipped preset: its engine
+        self.made = {}  # of a `run` of a shipped preset: its finished folder, a copy
+        self.kept = tempfile.TemporaryDirectory(prefix="nephroid-docs-made-")
         self.counts, self.failures, self.notes = Counter(), [], []
         self.display = Display() if "--screenshot" in self.help_of("") and shutil.which("Xvfb") else None
 
@@ -155,18 +160,41 @@ class Runner:
             self.fail(command, f"exit code {ended.returncode}: {ended.stderr.strip()[-600:]}")
         return ended.returncode == 0
 
+    def engine_of(self, command, folder):
+        """As `plan` says of a `run`'s preset and settings; None where it fails."""
+        words = command.words
+        asked = (words[1], *settings_of(words))
+        if asked in self.planned:
+            return self.planned[asked]
+        plan = folder / ".plan.json"
+        if not self.run(command, folder, ["plan", *asked, "--json", ">", plan.name]):
+            return None
+        engine = json.loads(plan.read_text(encoding="utf-8").splitlines()[0])["engine"]
+        if words[1] in self.presets - self.own:
+            self.planned[asked] = engine
+        return engine
+
     def run_run(self, command, folder):
         words = command.words
-        plan = folder / ".plan.json"
-        if not self.run(command, folder, ["plan", words[1], *settings_of(words), "--json", ">", plan.name]):
+        engine = self.engine_of(command, folder)
+        if engine is None:
             return
-        short = cut_short(words, json.loads(plan.read_text(encoding="utf-8").splitlines()[0])["engine"])
+        short, output = cut_short(words, engine), folder / output_of(words)
+        same = tuple(without(short, ("-o", "--output")))
+        alone = words[1] in self.presets - self.own and "--resume" not in words and not output.exists()
+        if alone and same in self.made:
+            shutil.copytree(self.made[same], output)
+            self.counts["run"] -= 1
+            self.counts["the same as an earlier one"] += 1
+            return
         try:
             done = self.run(command, folder, short + ([] if "--frames" in short else ["--frames", "0-1"]))
         except LookupError:
             done = self.run(command, folder, short)
-        if done and not any((folder / output_of(words)).rglob("run.json")):
+        if done and not any(output.rglob("run.json")):
             self.fail(command, f"left no finished run in {output_of(words)}")
+        elif done and alone:
+            self.made[same] = shutil.copytree(output, Path(self.kept.name) / str(len(self.made)))
 
     def run_window(self, command, folder):
         if not self.display:
@@ -259,12 +287,14 @@ def main(program, wanted):
         for page in pages:
             runner.do_page(page)
     finally:
+        runner.kept.cleanup()
         if runner.display:
             runner.display.close()
     print("\n".join(runner.notes))
     print(f"{processor_seconds():.0f} s of processor time")
     print(f"{len(pages)} pages: " + ", ".join(f"{runner.counts[kind]} {kind}" for kind in
-                                              ("run", "checked for its arguments only", "not run")))
+                                              ("run", "the same as an earlier one",
+                                               "checked for its arguments only", "not run")))
     for failure in runner.failures:
         print(f"FAILED {failure}")
     return 1 if runner.failures or not runner.counts["run"] else 0
