@@ -2,7 +2,7 @@
 // Chi-square tests of what the kernels draw, but for emission (emission_samplers_test.cpp): uniforms, places on area
 // lights, places in a pixel, clusters of a camera path, reflection or refraction. Each also shows that it rejects a
 // distribution a few per cent off.
-#include "kernels/tracing/shared_types.h"
+#include "kernels/lights/light_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
