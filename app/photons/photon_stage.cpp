@@ -26,27 +26,24 @@ std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t
 class PhotonStage final : public Stage {
 public:
   PhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)
-      : world_(world), splats_(settings.estimator != Settings::Estimator::tiles),
-        insists_(settings.effort == Settings::Effort::variance),
-        by_variance_(splats_ && (insists_ || settings.effort == Settings::Effort::automatic)),
-        allocation_(world.tables.emitters), guide_(by_variance_ ? world.tables.lights.size() : 0),
+      : world_(world), insists_(settings.effort == Settings::Effort::variance),
+        by_variance_(insists_ || settings.effort == Settings::Effort::automatic), allocation_(world.tables.emitters),
+        guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction",
                                     by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", guide_.table()),
-        film_(world.zeroed("film caustic", splats_ ? world.film_size() : 0)),
-        own_energy_(world.zeroed("energy of stored photons", splats_ ? 0 : OUTCOME_COUNT)),
-        stored_(world.context, "no photons", 0) {
+        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0) {
     if (world.map) stored_ = world.map->stored();
     make_kernel();
   }
 
-  const char* name() const override { return splats_ ? "photons" : "stored photons"; }
+  const char* name() const override { return "photons"; }
   double fraction_done() const override {
     return (static_cast<double>(batch_) + slices_.fraction_done()) / world_.tables.batches;
   }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
-  bool counts_energy() const override { return splats_; }
+  bool counts_energy() const override { return true; }
 
   bool advance(std::int64_t pass) override {
     advance_to(pass, world_.tables.batches);
@@ -55,7 +52,7 @@ public:
     return true;
   }
 
-  bool has_halves(std::int64_t passes, bool done) const override { return !splats_ || batches(passes, done) >= 2; }
+  bool has_halves(std::int64_t passes, bool done) const override { return batches(passes, done) >= 2; }
 
   bool advance_preview() override {
     if (batch_ < world_.preview.batches) advance_to(0, world_.preview.batches);
@@ -63,7 +60,6 @@ public:
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override {
-    if (!splats_) return;
     const std::array<double, 2> samples = tracing::halves_of(batches(passes, done), slices_.fraction_done());
     tracing::add_layer("caustic",
                        {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white,
@@ -112,7 +108,7 @@ private:
           world_.send(kernel_, slice, batch, launch,
                       {{"emitters", world_.emitters},
                        {"film", film_},
-                       {"energy", splats_ ? world_.energy : own_energy_},
+                       {"energy", world_.energy},
                        {"moments", moments_},
                        {"guide_moments", guide_moments_},
                        {"guide", guide_table_},
@@ -128,7 +124,6 @@ private:
   void make_kernel() {
     compute::Defines defines = world_.photon_defines();
     defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
-    defines["NEPHROID_SPLAT"] = std::to_string(int(splats_));
     defines["NEPHROID_STORE"] = std::to_string(int(stored_.size() > 0));
     kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
   }
@@ -165,7 +160,6 @@ private:
   }
 
   StageContext& world_;
-  bool splats_;      ///< false: for the map only, beside tiles, of which a batch is no fair sample
   bool insists_;     ///< whether the preset asks for allocation by variance
   bool by_variance_; ///< whether photons are measured, and allocated and guided by that
   NeymanAllocation allocation_;
@@ -174,7 +168,6 @@ private:
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
   compute::Buffer<std::int64_t> film_;
-  compute::Buffer<std::int64_t> own_energy_;     ///< of stored photons: the run's energy is that of tiles
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
@@ -198,15 +191,8 @@ PlanPart plan_photons(const PlanInput& input) {
   return part;
 }
 
-PlanPart plan_stored_photons(const PlanInput& input) {
-  const bool runs = input.caustics.runs && map_decision(input).runs;
-  return {.decisions = {{"stored photons", runs,
-                         runs ? "photons are sent for the maps, beside the tiles" : "there are no photon maps"}}};
-}
-
 } // namespace
 
 const RunPart photon_stage{plan_photons, make_stage<PhotonStage>, "caustic"};
-const RunPart stored_photon_stage{plan_stored_photons, make_stage<PhotonStage>, "caustic"};
 
 } // namespace nephroid::photons

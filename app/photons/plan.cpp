@@ -157,7 +157,9 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
                                     &caustics_part,
                                     &smoothing_part,
                                     &omissions_part,
-                                    sppm ? &sppm_stage : &map_stage,
+                                    sppm    ? &sppm_stage
+                                    : tiles ? &receiver_stage
+                                            : &map_stage,
                                     &even_sky_stage,
                                     &indirect_stage,
                                     &indirect_photon_stage,
@@ -165,7 +167,6 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
                                     &estimate_part,
                                     &environment_light_part,
                                     &relighting_part};
-  if (tiles) parts.insert(parts.begin() + 3, &stored_photon_stage);
   return parts;
 }
 

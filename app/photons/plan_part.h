@@ -71,7 +71,7 @@ struct RunPart {
 extern const RunPart direct_stage, photon_stage, map_stage, even_sky_stage, sppm_stage, indirect_stage,
     indirect_photon_stage, background_stage;
 /// The stages in the place of photon_stage where photons are tiles.
-extern const RunPart tile_stage, stored_photon_stage;
+extern const RunPart tile_stage, receiver_stage;
 /// The stages in their place where layers are kept for another light.
 extern const RunPart layered_direct_stage, layered_photon_stage;
 extern const RunPart relighting_part; ///< relight/layer_film.cpp: what these two share

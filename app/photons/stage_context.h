@@ -4,6 +4,7 @@
 #include "kernels/photons/launch_types.h"
 #include "photons/coarse.h"
 #include "photons/maps/photon_map.h"
+#include "photons/receivers/receiver_light.h"
 #include "photons/tables/run_tables.h"
 #include "tracing/slices.h"
 #include "tracing/world.h"
@@ -42,6 +43,7 @@ struct StageContext : tracing::World {
   PixelLists pixels{};
   PreviewBlocks preview{};
   std::optional<PhotonMap> map{};           ///< map that also takes the splatted photons, where a stage gathers them
+  std::optional<ReceiverLight> receivers{}; ///< light that tiles leave where glass and mirrors show it
   std::shared_ptr<Relighting> relighting{}; ///< set where layers are kept for another light
 
   /// The number of 64-bit sums of a film of XYZ.
@@ -76,5 +78,8 @@ struct StageContext : tracing::World {
   /// A scale for powers in the device's unit.
   float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }
 };
+
+/// Makes StageContext::receivers, with pages where paths from the eye ask for them.
+ReceiverLight make_receiver_light(StageContext& world, const scene::Scene& scene);
 
 } // namespace nephroid::photons

@@ -143,12 +143,15 @@ private:
     shared::DevicePhotonLaunch launch = world_.photon_launch();
     launch.film_scale = world_.on_device(world_.tables.caustic_scale * growth());
     launch.energy_scale = world_.on_device(world_.tables.energy_scale * growth());
+    if (world_.receivers) launch.stored_scale = world_.on_device(world_.receivers->quanta_per_watt() * growth());
     world_.send(kernel_, {first, 1, count}, batches_, launch,
                 {{"lattices", on_device_},
                  {"lattice_count", static_cast<int>(lattices_.lattices.size())},
                  {"views", views_},
                  {"film", film_},
-                 {"energy", energy_}});
+                 {"energy", energy_},
+                 {"receiver_table", world_.receivers ? world_.receivers->table() : no_table_},
+                 {"light", world_.receivers ? world_.receivers->sums() : no_light_}});
   }
 
   void end_round() {
@@ -164,6 +167,10 @@ private:
       sums_[i] += part * added[i];
     }
     if (world_.halves == 2 && batches_ > 0) estimate_bias(added);
+    if (world_.receivers) {
+      world_.receivers->take(1 / growth(), part);
+      world_.receivers->sums().fill_zero();
+    }
     const std::vector<std::int64_t> quanta = world_.context.all_reduced_sum(energy_);
     for (std::size_t i = 0; i < quanta.size(); ++i) outcomes_[i] += quanta[i];
     energy_.fill_zero();
@@ -201,6 +208,8 @@ private:
   Lattices lattices_;
   compute::Buffer<shared::DeviceLattice> on_device_{world_.context, "no lattices", 0};
   compute::Buffer<shared::PixelView> views_{world_.context, "no views", 0};
+  compute::Buffer<int> no_table_{world_.context, "no receivers", 0};
+  compute::Buffer<std::int64_t> no_light_{world_.context, "no receivers", 0};
   tracing::SliceSize amount_{4096, 256}; ///< fewer would not be worth a launch, however slow the device
   std::int64_t batch_ = 0;               ///< number of the batch in the current pass
   std::int64_t batches_ = 0;             ///< batches of all complete rounds

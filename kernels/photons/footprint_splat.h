@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Splats a photon as the parallelogram that it stands for, by exact area: each pixel gets the part of the photon's
 // light that lies in it. Footprints of neighbours in a lattice share their edges, so together they leave no gap.
+#include "kernels/photons/footprint.h"
 #include "kernels/photons/splat.h"
 #include "kernels/photons/tile_types.h"
-
-// A quadrilateral on the film, in pixels.
-typedef struct {
-  float4 x, y;  // its corners, around it, relative to `middle`
-  float4 slope; // dx / dy of the edge from each corner to the next; 0: level
-  float2 middle;
-  float area; // signed by its orientation
-} FilmFootprint;
-
-static inline float least(float4 v) { return fmin(fmin(v.x, v.y), fmin(v.z, v.w)); }
-static inline float greatest(float4 v) { return fmax(fmax(v.x, v.y), fmax(v.z, v.w)); }
 
 // How far a place moves on the film when it moves by `offset`. False: behind the camera.
 static inline bool moved_on_film(const DeviceCamera* camera, float3 position, float3 offset, float2* moved) {
@@ -28,22 +18,6 @@ static inline bool moved_on_film(const DeviceCamera* camera, float3 position, fl
   *moved =
       0.5f * (float2)(slope.x / camera->tan_x * (float)camera->width, -slope.y / camera->tan_y * (float)camera->height);
   return true;
-}
-
-// The integral of clamp(x, 0, 1) from 0 to x.
-static inline float4 ramp_sum(float4 x) {
-  const float4 inside = clamp(x, 0.0f, 1.0f);
-  return 0.5f * inside * inside + fmax(x - 1.0f, 0.0f);
-}
-
-// The area of the pixel at `pixel` (its corner relative to the middle) that lies in the footprint, 0..1, signed by its
-// orientation: the sum over the edges of what lies beside them.
-static inline float covered(const FilmFootprint* f, float2 pixel) {
-  const float4 x = f->x - pixel.x, y = f->y - pixel.y, y0 = clamp(y, 0.0f, 1.0f), y1 = y0.yzwx;
-  const float4 x0 = x + (y0 - y) * f->slope, x1 = x + (y1 - y) * f->slope, across = x1 - x0;
-  const float4 beside =
-      select((ramp_sum(x1) - ramp_sum(x0)) / across, clamp(0.5f * (x0 + x1), 0.0f, 1.0f), fabs(across) < 1e-2f);
-  return dot(y1 - y0, beside);
 }
 
 // A receiver's plane, for what stands between the camera and it.
@@ -107,20 +81,14 @@ static inline float2 place_within(uint photon, uint pixel) {
 }
 
 // Whether a footprint reaches the picture.
-static inline bool touches_film(const DeviceCamera* camera, const FilmFootprint* f) {
-  return f->middle.x + greatest(f->x) >= 0.0f && f->middle.y + greatest(f->y) >= 0.0f &&
-         f->middle.x + least(f->x) < (float)camera->width && f->middle.y + least(f->y) < (float)camera->height;
-}
-
-// Makes a footprint a point.
-static inline void shrink_to_point(FilmFootprint* f) {
-  f->x = f->y = f->slope = (float4)(0.0f);
-  f->area = 0.0f;
+static inline bool touches_film(const DeviceCamera* camera, const Footprint* f) {
+  const float2 low = low_corner(f), high = high_corner(f);
+  return high.x >= 0.0f && high.y >= 0.0f && low.x < (float)camera->width && low.y < (float)camera->height;
 }
 
 // Adds a photon's light to the pixels. xyz: as of one pixel that gets all of it. False: too large for the film.
 static inline bool add_footprint(const World* world, volatile __global long* film, const DeviceCamera* camera,
-                                 const SeenReceiver* receiver, const FilmFootprint* f, uint photon, float3 xyz,
+                                 const SeenReceiver* receiver, const Footprint* f, uint photon, float3 xyz,
                                  float scale) {
   const float2 low = (float2)(least(f->x), least(f->y)), high = (float2)(greatest(f->x), greatest(f->y));
   const int2 first = convert_int2_rtn(f->middle + low), last = convert_int2_rtn(f->middle + high);
@@ -174,7 +142,7 @@ static inline bool add_footprint(const World* world, volatile __global long* fil
 // The footprint that reaches from -a/2 - b/2 to a/2 + b/2 about a place, shrunk to `widest` pixels. False where there
 // is none: it has no area, is not finite, or reaches behind the camera. *shrunk: by which factor.
 static inline bool footprint_on_film(const DeviceCamera* camera, float3 position, float3 a, float3 b, float widest,
-                                     FilmFootprint* f, float* shrunk) {
+                                     Footprint* f, float* shrunk) {
   float2 u, v;
   // The first-order size decides, so that a footprint that would reach behind the camera is small enough before.
   const float3 nearly = 1e-3f * a, nearby = 1e-3f * b;
@@ -193,8 +161,5 @@ static inline bool footprint_on_film(const DeviceCamera* camera, float3 position
   }
   f->x = (float4)(corner[0].x, corner[1].x, corner[2].x, corner[3].x);
   f->y = (float4)(corner[0].y, corner[1].y, corner[2].y, corner[3].y);
-  const float4 rise = f->y.yzwx - f->y;
-  f->slope = select((f->x.yzwx - f->x) / rise, (float4)(0.0f), fabs(rise) < 1e-6f);
-  f->area = 0.5f * dot(f->x, f->y.yzwx) - 0.5f * dot(f->y, f->x.yzwx);
-  return fabs(f->area) > 1e-6f;
+  return has_area(f);
 }

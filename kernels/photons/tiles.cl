@@ -5,9 +5,15 @@
 #define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/photons/footprint_splat.h"
 #include "kernels/photons/launch_types.h"
+#include "kernels/photons/receiver.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
+
+// 1: light is kept on receivers, too, for what glass and mirrors show.
+#ifndef NEPHROID_RECEIVERS
+#define NEPHROID_RECEIVERS 0
+#endif
 
 // The part of a photon's light below which not every point of the lattice follows what is left: one of 4, then of 16,
 // ... does, and stands for all, as a lattice twice as wide. Beyond that many levels chance decides.
@@ -135,14 +141,19 @@ typedef struct {
   __global const PixelView* views;
   volatile __global long* film; // the lattice's half of it
   float scale;
+#if NEPHROID_RECEIVERS
+  Receivers receivers;
+  volatile __global long* light; // first_texel of the lattice
+  float light_scale;
+#endif
 } TileFilm;
 
 // The footprint about a place of a receiver, which spans a and b there. Where the receiver ends, it shrinks to what
 // fits; beyond its triangle a receiver goes on.
-static inline FilmFootprint footprint_at(const World* world, const DeviceCamera* camera, const PhotonEnd* end,
+static inline Footprint footprint_at(const World* world, const DeviceCamera* camera, const PhotonEnd* end,
                                          const Strand* strand, float side, float3 a, float3 b, float widest,
                                          float2 middle) {
-  FilmFootprint f;
+  Footprint f;
   f.middle = middle;
   for (int halvings = 0; halvings < 4; ++halvings) {
     float shrunk;
@@ -209,18 +220,29 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
     if (camera->receiver >= 0 && strand.surface.object != camera->receiver) continue;
     float2 middle;
     float weight;
-    if (!project_to_film(camera, strand.surface.position, strand.surface.geometric, path->direction,
-                         world->scene.metres_per_unit, &middle, &weight))
-      continue;
-    const FilmFootprint f = footprint_at(world, camera, end, &strand, side, a, b, widest, middle);
-    if (!touches_film(camera, &f)) continue;
+    bool on_film = project_to_film(camera, strand.surface.position, strand.surface.geometric, path->direction,
+                                   world->scene.metres_per_unit, &middle, &weight);
+    Footprint f;
+    if (on_film) {
+      f = footprint_at(world, camera, end, &strand, side, a, b, widest, middle);
+      on_film = touches_film(camera, &f);
+    }
+    if (!NEPHROID_RECEIVERS && !on_film) continue;
 #if NEPHROID_DIFFERENTIALS
     if (sweep.count > 1 || lattice->high - lattice->low < 1.0f)
       strand.xyz = part_left_of(world, &path->throughput, lattice, source, band, place_of_wavelengths(lattice, photon),
                                 reflector, low, low + part);
 #endif
+    const float shading = shading_ratio(&strand.surface, path->direction);
+#if NEPHROID_RECEIVERS
+    const float on_receiver = branch->is_coarse ? COARSE_PART : 1.0f;
+    fits = add_to_receiver(&film->receivers, &strand.surface, side, on_receiver * a, on_receiver * b, film->light,
+                           strand.xyz * (watts * shading * film->light_scale)) &&
+           fits;
+#endif
+    if (!on_film) continue;
     const SeenReceiver receiver = seen_receiver(camera, film->views, &strand.surface, strand.triangle, side);
-    const float3 xyz = strand.xyz * (watts * weight * shading_ratio(&strand.surface, path->direction) / PI_F);
+    const float3 xyz = strand.xyz * (watts * weight * shading / PI_F);
     fits = add_footprint(world, film->film, camera, &receiver, &f, photon, xyz, film->scale) && fits;
   }
   return fits;
@@ -328,6 +350,7 @@ static inline void start_branch(Branch* branch, const Emission* emission, Media 
 __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int lattice_count,
                     __global const PixelView* views,
                     volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                    __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
                     DeviceCamera camera, DevicePhotonLaunch launch) {
   const World world = WORLD;
   OUTCOMES(outcomes);
@@ -357,9 +380,16 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int
                                   ? carried_light(&world, &full, source, &whole, reflector_of_row(0)).w
                                   : lattice.share,
                 watts = emission.watts / lattice.photons;
-    const TileFilm to_film = {views,
-                              film_of_iteration(film, lattice.film_half, camera.width * camera.height),
-                              launch.film_scale};
+    TileFilm to_film;
+    to_film.views = views;
+    to_film.film = film_of_iteration(film, lattice.film_half, camera.width * camera.height);
+    to_film.scale = launch.film_scale;
+#if NEPHROID_RECEIVERS
+    to_film.receivers = receivers_of(receiver_table);
+    const int layer = layer_of(&to_film.receivers, lattice.cluster, scene.cluster_count);
+    to_film.light = light + first_texel(&to_film.receivers, lattice.film_half, layer);
+    to_film.light_scale = launch.stored_scale;
+#endif
     tile.band = band;
     tile.waiting = tile.segments = 0;
     tile.cell = lattice.step;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics gathered from photon maps: seen through glass and in mirrors by the estimator `automatic`, everywhere by
-// `sppm`. Radiance in closed form, and pictures against those of splats, which have no radius and no bias.
+// Caustics that are seen through glass and in mirrors: gathered from photon maps beside points and, everywhere, by
+// `sppm`; kept on receivers beside tiles. Radiance in closed form, and pictures against those of splats, which have no
+// radius and no bias.
 #include "optics/fresnel.h"
+#include "photons/describe_settings.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
@@ -84,8 +86,36 @@ TEST_P(MapEstimators, ASheetIsDarkOnItsOtherSide) {
   EXPECT_EQ(mean_luminance(render(p))[0], 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators, testing::Values(Estimator::points, Estimator::sppm),
-                         [](const auto& e) { return e.param == Estimator::sppm ? "sppm" : "points"; });
+INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators,
+                         testing::Values(Estimator::points, Estimator::tiles, Estimator::sppm),
+                         [](const auto& e) { return std::string(preset::word(e.param)); });
+
+// A window that bends nothing shows by its light on receivers what the film has without it: the caustic of a ball, in
+// blocks of pixels. The window is a target of photons, so it stands aside in the other picture.
+TEST(ReceiverLight, AWindowShowsWhatTheFilmHas) {
+  preset::Preset p = empty_preset(64);
+  p.scene.materials = {{"glass", glass(1.5)}, {"air", glass(1.00001)}, {"white", white()}};
+  p.scene.objects = {object("ball", sphere(1), "glass", at({0, 1.4, 0})), object("floor", quad(10, 10), "white"),
+                     object("window", box(1, 1, 0.01), "air", at({2.2, 3.6, 2.4}))};
+  p.scene.lights = {parallel_light({0.3, -1, 0.5})};
+  p.scene.camera.position = {0.6, 3, 4};
+  p.scene.camera.target = {0.6, 0, 0.8};
+  p.scene.camera.fov_deg = 20;
+  spectral::settings(p).estimator = Estimator::tiles;
+  p.stop.passes = 16;
+  const auto blocks_of = [](const preset::Preset& preset) {
+    const std::vector<double> y = luminance(layer(render(preset), "caustic"));
+    std::vector<double> sums(64, 0.0);
+    for (std::size_t i = 0; i < y.size(); ++i) sums[i / 64 / 8 * 8 + i % 64 / 8] += y[i];
+    return sums;
+  };
+  const std::vector<double> film = blocks_of(p);
+  p.scene.objects[2].transform.translate = {0.6, 2.6, 3.6};
+  const std::vector<double> seen = blocks_of(p);
+  const double all = std::accumulate(film.begin(), film.end(), 0.0);
+  EXPECT_NEAR(std::accumulate(seen.begin(), seen.end(), 0.0) / all, 1, 0.005);
+  for (std::size_t i = 0; i < film.size(); ++i) EXPECT_NEAR(seen[i], film[i], 0.02 * film[i] + 1e-3 * all) << i;
+}
 
 // What the splats leave out is what maps are for.
 TEST(PhotonMaps, SplatsAloneShowNothingBehindGlass) {
