@@ -222,7 +222,7 @@ TEST_P(StoredMean, IsThatOfTiles) {
   const job::Snapshot snapshot = Renderer(p).render(fresh_seed);
   const StoredStatistics stored = read_statistics(stored_file(GetParam().name));
   XyzPicture picture = to_xyz(snapshot.picture->rgb);
-  for (const std::size_t pixel : photons::glass_pixels(scene::load_scene(p))) // maps, which are not stored, show these
+  for (const std::size_t pixel : photons::glass_pixels(scene::load_scene(p))) // paths from the eye show these
     std::copy_n(stored.levels[0].mean.begin() + std::ptrdiff_t(3 * pixel), 3,
                 picture.begin() + std::ptrdiff_t(3 * pixel));
   const Comparison comparison = compare(picture, stored);
