@@ -5,6 +5,7 @@
 #include "python/bindings.h"
 
 #include <exception>
+#include <string>
 
 namespace {
 
@@ -26,9 +27,21 @@ void add_errors(pybind11::module_& module) {
   });
 }
 
+/// Throws ImportError where pybind11 does not know the numpy that is there: pictures would be zeros.
+void check_numpy() {
+#if PYBIND11_VERSION_MAJOR == 2 && PYBIND11_VERSION_MINOR < 12
+  const auto numpy = pybind11::module_::import("numpy").attr("__version__").cast<std::string>();
+  if (std::stoi(numpy) >= 2)
+    throw pybind11::import_error("nephroid: numpy is " + numpy +
+                                 ", and the module was built with a pybind11 that knows numpy 1 only; install "
+                                 "\"numpy<2\", or build it with pybind11 2.12 or later");
+#endif
+}
+
 } // namespace
 
 PYBIND11_MODULE(_nephroid, module) {
+  check_numpy();
   module.attr("version") = std::string(nephroid::version());
   add_errors(module);
   nephroid::python::add_presets(module);

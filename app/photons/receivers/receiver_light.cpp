@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <utility>
 
 namespace nephroid::photons {
@@ -51,10 +52,14 @@ ReceiverLight::ReceiverLight(tracing::World& world, Charts charts, std::vector<s
                              std::size_t pages, int layers, unsigned halves, double quanta_per_watt)
     : world_(world), charts_(std::move(charts)), layers_(layers), halves_(halves), quanta_per_watt_(quanta_per_watt) {
   std::erase_if(looks, [](const shared::DeviceLook& look) { return look.chart == NO_PAGE; });
+  // Every chart that is looked at has a page. Where there are too many for the layers, layers are joined.
+  std::set<int> seen;
+  for (const shared::DeviceLook& look : looks) seen.insert(look.chart);
+  while (layers_ > 1 && page_bytes(layers_, halves) * seen.size() > most_bytes) layers_ /= 2;
   trees_ = make_pages(looks, charts_.count, pages);
-  table_ = compute::Buffer<int>(world.context, "pages of receivers", receiver_table(charts_, trees_, layers));
+  table_ = compute::Buffer<int>(world.context, "pages of receivers", receiver_table(charts_, trees_, layers_));
   const std::size_t size =
-      std::size_t{3} * PAGE_TEXELS * halves * trees_.pages.size() * static_cast<std::size_t>(layers);
+      std::size_t{3} * PAGE_TEXELS * halves * trees_.pages.size() * static_cast<std::size_t>(layers_);
   sums_ = world.zeroed("light on receivers", size);
   totals_ = compute::zeroed<float>(world.context, "light on receivers that is seen", size);
   const compute::Program program(world.context, "photons/receiver_light.cl", world.defines);

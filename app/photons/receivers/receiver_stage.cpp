@@ -48,16 +48,17 @@ public:
   }
 
   bool advance(std::int64_t pass) override {
-    if (world_.pixels.glass.empty() || !light_.has_light()) return true;
+    if (!light_.has_light()) return true;
     const auto half = static_cast<std::uint32_t>(pass % world_.halves);
     const std::uint32_t samples = samples_a_pass();
-    const bool complete = slices_.advance(world_.context.communicator(), [&](std::uint32_t first, std::uint32_t count) {
-      see(film_, world_.tables.camera, world_.pixels.on_device,
-          {world_.seed, before_[half] * world_.halves + half, world_.halves, samples, half, world_.pixels.count + first,
-           count, 0},
-          count);
-      world_.context.finish();
-    });
+    const bool complete = world_.pixels.glass.empty() ||
+                          slices_.advance(world_.context.communicator(), [&](std::uint32_t first, std::uint32_t count) {
+                            see(film_, world_.tables.camera, world_.pixels.on_device,
+                                {world_.seed, before_[half] * world_.halves + half, world_.halves, samples, half,
+                                 world_.pixels.count + first, count, 0},
+                                count);
+                            world_.context.finish();
+                          });
     half_in_hand_ = half;
     if (!complete) return false;
     before_[half] += samples;
