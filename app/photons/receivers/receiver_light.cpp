@@ -12,6 +12,7 @@ namespace {
 /// Bytes that light on receivers may take. Pages are divided as far as they last.
 constexpr std::uint64_t most_bytes = std::uint64_t{512} << 20;
 constexpr std::size_t most_layers = 16;
+constexpr std::size_t page_texels = std::size_t{PAGE_EDGE} * PAGE_EDGE;
 
 template <class Item>
 int append(std::vector<int>& table, const std::vector<Item>& items) {
@@ -28,15 +29,14 @@ int receiver_layers(std::size_t clusters) {
 }
 
 std::uint64_t page_bytes(int layers, unsigned halves) {
-  return std::uint64_t{3} * PAGE_TEXELS * (sizeof(std::int64_t) + sizeof(float)) * static_cast<std::uint64_t>(layers) *
-         halves;
+  return 3 * page_texels * (sizeof(std::int64_t) + sizeof(float)) * static_cast<std::uint64_t>(layers) * halves;
 }
 
 std::size_t most_pages(std::size_t glass_pixels, int layers, unsigned halves) {
   // A page whose texels are as small as it is asked for is what 16 x 16 pixels show; folds and what is above it in its
   // tree take some more.
   constexpr std::size_t roots = 64, times = 4;
-  const std::size_t asked = times * glass_pixels / (PAGE_TEXELS / 4) + roots;
+  const std::size_t asked = times * glass_pixels / (page_texels / 4) + roots;
   return std::min(asked, static_cast<std::size_t>(most_bytes / page_bytes(layers, halves)));
 }
 
@@ -58,8 +58,7 @@ ReceiverLight::ReceiverLight(tracing::World& world, Charts charts, std::vector<s
   while (layers_ > 1 && page_bytes(layers_, halves) * seen.size() > most_bytes) layers_ /= 2;
   trees_ = make_pages(looks, charts_.count, pages);
   table_ = compute::Buffer<int>(world.context, "pages of receivers", receiver_table(charts_, trees_, layers_));
-  const std::size_t size =
-      std::size_t{3} * PAGE_TEXELS * halves * trees_.pages.size() * static_cast<std::size_t>(layers_);
+  const std::size_t size = 3 * page_texels * halves * trees_.pages.size() * static_cast<std::size_t>(layers_);
   sums_ = world.zeroed("light on receivers", size);
   totals_ = compute::zeroed<float>(world.context, "light on receivers that is seen", size);
   const compute::Program program(world.context, "photons/receiver_light.cl", world.defines);
@@ -75,7 +74,7 @@ void ReceiverLight::take(double scale, double part) {
       is_alone
           ? sums_
           : compute::Buffer<std::int64_t>(world_.context, "light of all ranks", world_.context.all_reduced_sum(sums_));
-  const std::size_t items = std::size_t{PAGE_TEXELS} * static_cast<std::size_t>(layers_);
+  const std::size_t items = page_texels * static_cast<std::size_t>(layers_);
   for (unsigned half = 0; half < halves_; ++half) {
     take_.run(items * trees_.pages.size(), 64,
               {{"receiver_table", table_},
