@@ -95,16 +95,16 @@ static inline float level_of(float size, float texels) {
 }
 
 // The pages of at most this level under a footprint, which reaches over at most FOOTPRINT_TEXELS of their texels.
-static inline int pages_under(const Receivers* on, int root, float2 low, float2 high, int deepest, int found[4]) {
+static inline int pages_under(const Receivers* on, int root, float2 low, float2 high, int deepest, int under[4]) {
   int count = 1;
-  found[0] = root;
+  under[0] = root;
   for (int level = 0; level < deepest; ++level) {
     int next[4], next_count = 0;
     bool is_split = false;
     for (int i = 0; i < count; ++i) {
-      const DevicePage page = on->pages[found[i]];
+      const DevicePage page = on->pages[under[i]];
       if (page.child == NO_PAGE || page.level > level) {
-        if (next_count < 4) next[next_count++] = found[i];
+        if (next_count < 4) next[next_count++] = under[i];
         continue;
       }
       is_split = true;
@@ -117,7 +117,7 @@ static inline int pages_under(const Receivers* on, int root, float2 low, float2 
     }
     if (!is_split) break;
     count = next_count;
-    for (int i = 0; i < count; ++i) found[i] = next[i];
+    for (int i = 0; i < count; ++i) under[i] = next[i];
   }
   return count;
 }
@@ -141,15 +141,15 @@ static inline void texels_under(const Footprint* f, int2* from, int2* to) {
 // Adds a footprint's light to a chart, by exact area; all texels together get all of it.
 static inline void add_to_chart(const Receivers* on, int root, const Footprint* on_chart, int deepest, bool is_point,
                                 volatile __global long* sums, float3 quanta) {
-  int found[4];
-  const int count = pages_under(on, root, low_corner(on_chart), high_corner(on_chart), deepest, found);
+  int under[4];
+  const int count = pages_under(on, root, low_corner(on_chart), high_corner(on_chart), deepest, under);
   float part = 0.0f;
   long rounded_before[3] = {0, 0, 0};
   for (int i = 0; i < count; ++i) {
-    const DevicePage page = on->pages[found[i]];
+    const DevicePage page = on->pages[under[i]];
     Footprint f = footprint_on_page(on_chart, &page);
     if (is_point || !has_area(&f)) shrink_to_point(&f);
-    volatile __global long* const texels = sums + page_size(on) * (size_t)found[i];
+    volatile __global long* const texels = sums + page_size(on) * (size_t)under[i];
     int2 from, to;
     texels_under(&f, &from, &to);
     for (int row = from.y; row <= to.y; ++row)
@@ -259,20 +259,20 @@ static inline float3 look_at_receiver(const Receivers* on, const Surface* surfac
   ChartLook look = look_on_chart(on, surface, side, a, b, at);
   if (look.chart == NO_PAGE || on->roots[look.chart] == NO_PAGE) return (float3)(0.0f);
   const int root = on->roots[look.chart];
-  int found[4];
-  pages_under(on, root, look.middle, look.middle, look.level, found);
-  const int level = on->pages[found[0]].level;
+  int under[4];
+  pages_under(on, root, look.middle, look.middle, look.level, under);
+  const int level = on->pages[under[0]].level;
   widen(&look.a, &look.b, 1.0f / (float)(PAGE_EDGE << level));
   const Footprint f = footprint_on_chart(look.middle, look.a, look.b);
-  const int count = pages_under(on, root, low_corner(&f), high_corner(&f), level, found);
+  const int count = pages_under(on, root, low_corner(&f), high_corner(&f), level, under);
   float3 sum = (float3)(0.0f);
   float area = 0.0f;
   for (int i = 0; i < count; ++i) {
-    const DevicePage page = on->pages[found[i]];
+    const DevicePage page = on->pages[under[i]];
     Footprint on_page = footprint_on_page(&f, &page);
     has_area(&on_page);
     const float texel = 1.0f / (float)(PAGE_EDGE << page.level), orientation = on_page.area < 0.0f ? -1.0f : 1.0f;
-    __global const float* const texels = totals + page_size(on) * (size_t)found[i];
+    __global const float* const texels = totals + page_size(on) * (size_t)under[i];
     int2 from, to;
     texels_under(&on_page, &from, &to);
     for (int row = from.y; row <= to.y; ++row)

@@ -151,8 +151,8 @@ typedef struct {
 // The footprint about a place of a receiver, which spans a and b there. Where the receiver ends, it shrinks to what
 // fits; beyond its triangle a receiver goes on.
 static inline Footprint footprint_at(const World* world, const DeviceCamera* camera, const PhotonEnd* end,
-                                         const Strand* strand, float side, float3 a, float3 b, float widest,
-                                         float2 middle) {
+                                     const Strand* strand, float side, float3 a, float3 b, float widest,
+                                     float2 middle) {
   Footprint f;
   f.middle = middle;
   for (int halvings = 0; halvings < 4; ++halvings) {

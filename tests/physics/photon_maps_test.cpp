@@ -112,9 +112,9 @@ TEST(ReceiverLight, AWindowShowsWhatTheFilmHas) {
   const std::vector<double> film = blocks_of(p);
   p.scene.objects[2].transform.translate = {0.6, 2.6, 3.6};
   const std::vector<double> seen = blocks_of(p);
-  const double all = std::accumulate(film.begin(), film.end(), 0.0);
-  EXPECT_NEAR(std::accumulate(seen.begin(), seen.end(), 0.0) / all, 1, 0.005);
-  for (std::size_t i = 0; i < film.size(); ++i) EXPECT_NEAR(seen[i], film[i], 0.02 * film[i] + 1e-3 * all) << i;
+  const double light = std::accumulate(film.begin(), film.end(), 0.0);
+  EXPECT_NEAR(std::accumulate(seen.begin(), seen.end(), 0.0) / light, 1, 0.005);
+  for (std::size_t i = 0; i < film.size(); ++i) EXPECT_NEAR(seen[i], film[i], 0.02 * film[i] + 1e-3 * light) << i;
 }
 
 // What the splats leave out is what maps are for.
