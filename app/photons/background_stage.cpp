@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <vector>
 
@@ -27,10 +28,10 @@ optics::Colour one_wavelength(const Spectrum& spectrum, std::size_t w) {
 
 struct BackgroundTables {
   shared::DeviceBackground size{};
-  std::vector<shared::float4> primary_xyz; ///< [401, all of them at the end][primary]
-  std::vector<float> spectrum_cdf;         ///< [401]: exact_cdf of what the eye makes of a grey environment
-  double film_scale = 1;                   ///< quanta per unit of the picture's values, a power of two
-  double limit = 1;                        ///< quanta that one contribution may have
+  std::vector<shared::float4> primary_before; ///< [402][primary]: sums over the wavelengths before
+  std::vector<float> spectrum_cdf;            ///< [401]: exact_cdf of what the eye makes of a grey environment
+  double film_scale = 1;                      ///< quanta per unit of the picture's values, a power of two
+  double limit = 1;                           ///< quanta that one contribution may have
 };
 
 /// pixel_samples is the number of a pixel's samples that the film must hold.
@@ -38,16 +39,16 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
   BackgroundTables tables;
   tables.size = tracing::picture_size(environment);
   std::vector<double> weights(wavelength_count, 0.0); // for a grey environment
-  for (std::size_t w = 0; w < weights.size(); ++w)
-    for (const Spectrum& primary : optics::primary_spectra()) {
+  std::array<glm::dvec3, 3> before{};
+  for (std::size_t w = 0; w <= weights.size(); ++w)
+    for (std::size_t p = 0; p < before.size(); ++p) {
+      tables.primary_before.push_back(tracing::to_float4(before[p]));
+      if (w == weights.size()) continue;
+      const Spectrum& primary = optics::primary_spectra()[p];
       const optics::Colour xyz = one_wavelength(primary, w);
-      tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
+      before[p] += glm::dvec3(xyz[0], xyz[1], xyz[2]);
       weights[w] += tracing::worth((xyz[0] + xyz[1] + xyz[2]) / 3, primary[w]);
     }
-  for (const Spectrum& primary : optics::primary_spectra()) {
-    const optics::Colour xyz = optics::to_xyz(primary);
-    tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
-  }
   tables.spectrum_cdf = exact_cdf(weights);
   // A mean texel has 2^24 quanta; all samples of a pixel together stay within 63 bits.
   const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) /
@@ -57,25 +58,38 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
   return tables;
 }
 
+/// [401]; 0 for a wavelength that is in no cluster.
+std::vector<int> clusters_of_wavelengths(const std::vector<std::vector<int>>& clusters) {
+  std::vector<int> result(wavelength_count, 0);
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    for (const int w : clusters[c]) result[static_cast<std::size_t>(w)] = static_cast<int>(c);
+  return result;
+}
+
 class BackgroundStage final : public EyeStage {
 public:
   BackgroundStage(StageContext& world, const scene::Scene& scene, const Settings& settings)
       : EyeStage(world, "background", "background", settings), radiance_(scene.environment->radiance),
         tables_(make_background_tables(*scene.environment, *settings.pixel_samples)),
         texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),
-        primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),
-        spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf)) {
-    compute::Defines defines = world.eye_defines();
+        primary_before_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_before)),
+        spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf)),
+        spectrum_clusters_(compute::Buffer(world.context, "clusters of wavelengths",
+                                           clusters_of_wavelengths(world.tables.wavelengths.clusters))) {
+    compute::Defines defines = world.eye_defines(true);
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // a path has wavelengths, not clusters
     kernel_ = compute::Program(world.context, "photons/background.cl", defines).kernel("background");
   }
 
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
-    world_.run(
-        kernel_, count, 64,
-        {{"texels", texels_}, {"primary_xyz", primary_xyz_}, {"size", tables_.size}, {"spectrum_cdf", spectrum_cdf_}},
-        more);
+    world_.run(kernel_, count, 64,
+               {{"texels", texels_},
+                {"primary_before", primary_before_},
+                {"size", tables_.size},
+                {"spectrum_cdf", spectrum_cdf_},
+                {"spectrum_clusters", spectrum_clusters_}},
+               more);
   }
   float film_scale() const override { return static_cast<float>(tables_.film_scale); }
   double limit() const override { return tables_.limit; }
@@ -84,8 +98,9 @@ private:
   double radiance_; ///< radiance of the texel (1, 1, 1)
   BackgroundTables tables_;
   compute::Buffer<float> texels_;
-  compute::Buffer<shared::float4> primary_xyz_;
+  compute::Buffer<shared::float4> primary_before_;
   compute::Buffer<float> spectrum_cdf_;
+  compute::Buffer<int> spectrum_clusters_;
   compute::Kernel kernel_;
 };
 

@@ -12,7 +12,7 @@ class DirectStage final : public EyeStage {
 public:
   DirectStage(StageContext& world, const scene::Scene&, const Settings& settings)
       : EyeStage(world, "direct", "direct", settings),
-        kernel_(compute::Program(world.context, "photons/direct.cl", world.eye_defines()).kernel("direct")) {}
+        kernel_(compute::Program(world.context, "photons/direct.cl", world.eye_defines(true)).kernel("direct")) {}
 
 private:
   void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {

@@ -127,6 +127,8 @@ plan::Decision differentials_decision(const PlanInput& input) {
 PlanPart plan_caustics(const PlanInput& input) {
   const plan::Decision jitter = jitter_decision(input), low_discrepancy = low_discrepancy_decision(input.settings),
                        differentials = differentials_decision(input);
+  const bool sweeps = input.settings.jitter && !input.settings.relight &&
+                      tracing::stretch_parameter(input.scene) != tracing::StretchParameter::none;
   PlanPart part;
   if (input.caustics.runs)
     part.decisions = {input.tiles,
@@ -138,6 +140,7 @@ PlanPart plan_caustics(const PlanInput& input) {
   part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
                   {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))},
+                  {"NEPHROID_EYE_SWEEP", std::to_string(int(sweeps))},
                   {"NEPHROID_EVEN_SKY", std::to_string(int(input.tables.has_even_sky))}};
   return part;
 }

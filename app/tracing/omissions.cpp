@@ -198,6 +198,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_BENDING", flag(bending)},
       {"NEPHROID_PANES", flag(any(scatter::is_thin) || !leave_out.bending)},
       {"NEPHROID_COATINGS", flag(any(scatter::is_coated) || !leave_out.bending)},
+      {"NEPHROID_COATED", flag(any(scatter::is_coated))},
       {"NEPHROID_ROUGH", flag(any(scatter::is_rough) || !leave_out.bending)},
       {"NEPHROID_LIGHT_PICTURES", flag(std::ranges::any_of(scene.lights, has_picture))},
       {"NEPHROID_PHOTOMETRY", flag(std::ranges::any_of(scene.lights, has_photometry))},

@@ -89,14 +89,13 @@ void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, Wa
   }
   for (int r = 0; r < tables.reflector_count; ++r)
     tables.reflected_xyz_all.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), all)));
-  for (int r = 0; r < tables.reflector_count; ++r)
-    for (const std::vector<int>& cluster : tables.clusters) {
-      glm::dvec4 before(0);
-      for (const int w : cluster) {
-        tables.reflected_before.push_back(to_float4(before));
-        before += reflected(spectrum, reflectance_row(tables, r), {w});
-      }
+  for (int r = 0; r <= tables.reflector_count; ++r) {
+    glm::dvec4 before(0);
+    for (const int w : tables.cluster_wavelengths) {
+      tables.reflected_before.push_back(to_float4(before));
+      before += reflected(spectrum, r < tables.reflector_count ? reflectance_row(tables, r) : nullptr, {w});
     }
+  }
 }
 
 /// Photons are allocated by a light's spectrum and carry it too. Only the environment's carry three parts.

@@ -74,10 +74,12 @@ struct World {
     result["NEPHROID_PHOTONS_PER_ITEM"] = std::to_string(photons_per_item());
     return result;
   }
-  /// Those of paths from the eye, which do not carry derivatives by wavelength.
-  compute::Defines eye_defines() const {
+  /// Those of paths from the eye. sweeps: their ends are swept over wavelengths, where those go different ways.
+  compute::Defines eye_defines(bool sweeps = false) const {
     compute::Defines result = defines;
-    result["NEPHROID_DIFFERENTIALS"] = std::to_string(0);
+    const bool swept = sweeps && defines.at("NEPHROID_EYE_SWEEP") == "1";
+    result["NEPHROID_DIFFERENTIALS"] = std::to_string(int(swept));
+    if (swept) result["NEPHROID_JITTER"] = std::to_string(1); // also where each cluster has one wavelength
     return result;
   }
   /// Does what run does, with items for `count` photons, and at least one.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as a latitude-longitude picture at infinity: its colour in a direction, and that colour's XYZ at one
-// wavelength. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a spectrum, the
+// The environment as a latitude-longitude picture at infinity: its colour in a direction, and that colour's XYZ in
+// some wavelengths. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a spectrum, the
 // sum of the fixed spectra of the three sRGB primaries (app/optics/colour.h).
 #include "kernels/lights/light.h"
 #include "kernels/tracing/shared_types.h"
 
 typedef struct {
   __global const float* texels;       // [row][column][3]: linear sRGB
-  __global const float4* primary_xyz; // [401, all of them at the end][primary]: XYZ of the primary's spectrum
+  __global const float4* primary_before; // [402][primary]: XYZ of the primary's spectrum in the wavelengths before
   DeviceBackground size;
 } Background;
 
@@ -44,8 +44,9 @@ static inline float3 background_rgb(const Background* b, float3 direction) {
   return upper + at.lower_part * (lower - upper);
 }
 
-// The XYZ of one wavelength of a colour's spectrum. wavelength: WAVELENGTH_COUNT for all of them.
-static inline float3 background_xyz(const Background* b, float3 rgb, int wavelength) {
-  __global const float4* primary = b->primary_xyz + 3 * wavelength;
-  return rgb.x * primary[0].xyz + rgb.y * primary[1].xyz + rgb.z * primary[2].xyz;
+// The XYZ of a colour's spectrum in the wavelengths first, ..., end - 1.
+static inline float3 background_xyz(const Background* b, float3 rgb, int first, int end) {
+  __global const float4 *before = b->primary_before + 3 * first, *after = b->primary_before + 3 * end;
+  return rgb.x * (after[0].xyz - before[0].xyz) + rgb.y * (after[1].xyz - before[1].xyz) +
+         rgb.z * (after[2].xyz - before[2].xyz);
 }

@@ -3,6 +3,23 @@
 #include "kernels/lights/environment.h"
 #include "kernels/tracing/world.h"
 
+// XYZ of a row's light in all members up to `number` and in a part of that, as a reflector sends it.
+static inline float3 light_before(const World* world, int row, Reflector reflector, int number, float part) {
+  const SpectralTables* tables = &world->tables;
+  const int members = tables->cluster_first[world->scene.cluster_count], reflectors = world->scene.reflector_count,
+            wavelength = tables->cluster_wavelengths[number];
+  __global const float4* before = world->reflected_before + row * (reflectors + 1) * members + number;
+  float3 xyz = part * wavelength_light(tables, row, wavelength, reflector).xyz;
+  if (is_white(reflector)) return xyz + before[reflectors * members].xyz;
+#if NEPHROID_TEXTURES
+  if (reflector.is_textured)
+    return xyz + reflector.rgb.x * before[(reflector.row + 1) * members].xyz +
+           reflector.rgb.y * before[(reflector.row + 2) * members].xyz +
+           reflector.rgb.z * before[(reflector.row + 3) * members].xyz;
+#endif
+  return xyz + before[reflector.row * members].xyz;
+}
+
 // carried_light of one row of the tables of lights.
 static inline float4 carried_row(const World* world, const Throughput* throughput, int light, const Band* band,
                                  Reflector reflector) {
@@ -17,6 +34,15 @@ static inline float4 carried_row(const World* world, const Throughput* throughpu
                ? coloured_light(tables, &throughput->all, all, light, &band->all, reflector)
                : throughput->all.middle * all;
   }
+#if NEPHROID_JITTER
+  if (band->size > 0.0f) {
+    const Member first = member_at(world, band->low), last = member_at(world, band->low + band->size);
+    const float4 all = (float4)(light_before(world, light, reflector, last.number, last.part) -
+                                light_before(world, light, reflector, first.number, first.part), 0.0f);
+    return are_coloured(&throughput->own) ? coloured_light(tables, &throughput->own, all, light, &band->own, reflector)
+                                          : throughput->own.middle * all;
+  }
+#endif
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0)
     return part_left(throughput) * band->weight *

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end
-// at the environment. A path has all wavelengths until glass sends them different ways, then one.
+// at the environment.
 // 1: the environment is a light. Where it is none, its peaks are not known.
 #ifndef NEPHROID_SKY_IS_LIGHT
 #define NEPHROID_SKY_IS_LIGHT 1
@@ -8,85 +8,110 @@
 #define NEPHROID_PLACE_DIFFERENTIALS NEPHROID_SKY_IS_LIGHT
 #include "kernels/photons/launch_types.h"
 #include "kernels/tracing/work_item.h"
-#include "kernels/transport/eye_walk.h"
+#include "kernels/transport/branches.h"
+#include "kernels/transport/eye_band.h"
 #include "kernels/transport/piece.h"
+#include "kernels/transport/sweep.h"
 
-// XYZ of what a path leaves of a colour: in the wavelength that leads, or in all of them, as coloured_light does.
-static inline float3 shown_after(const Background* background, float3 rgb, const Throughput* throughput,
-                                 const Band* band) {
-  if (!is_unsplit(throughput, band))
-    return part_left(throughput) * band->weight * background_xyz(background, rgb, band->wavelength);
-  const Parts* parts = &throughput->all;
-  float3 xyz = parts->middle * background_xyz(background, rgb, WAVELENGTH_COUNT);
-  if (!are_coloured(parts)) return xyz;
-  const float4 weights = band->all.weights * (parts->four - parts->middle);
-  const int4 w = band->all.wavelengths;
-  return xyz + weights.x * background_xyz(background, rgb, w.x) + weights.y * background_xyz(background, rgb, w.y) +
-         weights.z * background_xyz(background, rgb, w.z) + weights.w * background_xyz(background, rgb, w.w);
+// The wavelengths of paths: here they lie one after the other, by the chances of a path through glass.
+typedef struct {
+  __global const float* cdf;    // [401]
+  __global const int* clusters; // [401]: of each wavelength
+} SpectrumChoice;
+
+// The part of a wavelength that lies before a place.
+static inline float part_before(const SpectrumChoice* choice, int wavelength, float place) {
+  const float before = chance_before(choice->cdf, wavelength);
+  return clamp((place - before) / (choice->cdf[wavelength] - before), 0.0f, 1.0f);
 }
 
-// What glass that a path leaves at once reflects of a colour, in all wavelengths. All go the same way. The share of
-// bare glass at the mean index counts for all of them, and what this wavelength's differs from it for itself: little
-// where there is no coating.
-static inline float3 reflected_after(const World* world, const Background* background, float3 rgb, const Band* band,
-                                     float scale, const ScatterSample* first) {
-  __global const float* n_of = world->tables.index_of_cluster;
-  const float n_i = first->near_material < 0 ? 1.0f : n_of[first->near_material],
-              n_t = first->far_material < 0 ? 1.0f : n_of[first->far_material];
-  const float cos_i = dot(first->direction, first->normal), cos_t = refracted_cosine(cos_i, n_i / n_t);
-  const float share = cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_i, n_t);
-  return scale * share * background_xyz(background, rgb, WAVELENGTH_COUNT) +
-         scale * (first->reflectance - share) * band->weight * background_xyz(background, rgb, band->wavelength);
+// XYZ of a colour in the part of the spectrum from one place to another.
+static inline float3 xyz_of_part(const Background* background, const SpectrumChoice* choice, float3 rgb, float low,
+                                 float high) {
+  const int first = choose(choice->cdf, WAVELENGTH_COUNT, low),
+            last = choose(choice->cdf, WAVELENGTH_COUNT, fmin(high, 0x1.fffffep-1f));
+  const float in_last = high < 1.0f ? part_before(choice, last, high) : 1.0f;
+  return background_xyz(background, rgb, first, last) -
+         part_before(choice, first, low) * background_xyz(background, rgb, first, first + 1) +
+         in_last * background_xyz(background, rgb, last, last + 1);
 }
 
-// The XYZ radiance of the environment that the paths of a pixel's sample see which have met `first`, one of them by
-// reflection there. The part that is seen by path i of PATHS_THROUGH_GLASS; 0 where it ends elsewhere.
-IN_PLACE float3 seen_through(const World* world, const Background* background, Path path, Hit first, const Band* band,
-                             float2 place, uint2 seed, uint frame, uint i, uint pixel) {
-  const bool reflected = i == 0u;
-  const uint sample = frame * PATHS_THROUGH_GLASS + i;
-  Visitor eye = eye_visitor(band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND);
-  eye.first_lobes = reflected ? LOBE_REFLECTION : LOBE_TRANSMISSION;
-  Hit hit = first;
-  Interaction at;
-  int last;
-  const float left = follow_eye_path(world, &eye, &path, &hit, &at, &last);
-  if (left == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
-  const bool one_way = leaves_one_way(&eye.first), leaves = last == 0;
-  const float part = 1.0f / (one_way ? PATHS_THROUGH_GLASS : reflected ? 1.0f : PATHS_THROUGH_GLASS - 1.0f);
-  const float radiance_scale = part * eye.share * eye.radiance_scale;
-#if NEPHROID_PLACE_DIFFERENTIALS
-  const Piece piece = piece_of(&path, place, piece_edges(frame / NEPHROID_FILM_HALVES));
-  const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, sample, pixel, 0u, STREAM_PEAKS).xy);
-#else
-  const float3 rgb = background_rgb(background, path.direction);
-#endif
-  if (leaves && reflected && !one_way && path.throughput.is_split && is_full(&path.throughput))
-    return reflected_after(world, background, rgb, band, part, &eye.first);
-  return radiance_scale * shown_after(background, rgb, &path.throughput, band);
+static inline DrawnWavelength drawn_at(const SpectrumChoice* choice, float place, float size) {
+  const int wavelength = choose(choice->cdf, WAVELENGTH_COUNT, fmin(place, 0x1.fffffep-1f));
+  const DrawnWavelength drawn = {wavelength,
+                                 size / (choice->cdf[wavelength] - chance_before(choice->cdf, wavelength))};
+  return drawn;
 }
 
-// u: in [0, 1), chooses wavelengths by the chances of a path through glass.
-static inline Band band_of_spectrum(__global const float* cdf, float u) {
-  DrawnWavelength drawn[4];
+// As choose_eye_band.
+static inline Band choose_background_band(const SpectrumChoice* choice, float place, uint parts) {
+  const float size = 1.0f / (float)parts, low = floor(place * (float)parts) * size, within = (place - low) / size;
+  DrawnWavelength own[4], all[4];
   for (int i = 0; i < 4; ++i) {
-    drawn[i].wavelength = choose(cdf, WAVELENGTH_COUNT, quarters_on(u, i));
-    drawn[i].weight = 1.0f / (cdf[drawn[i].wavelength] - chance_before(cdf, drawn[i].wavelength));
+    own[i] = drawn_at(choice, low + size * quarters_on(within, i), size);
+    all[i] = drawn_at(choice, quarters_on(place, i), size);
   }
-  Band band = one_wavelength(0, drawn[0].wavelength, drawn[0].weight);
-  carry_all(&band, drawn[1], drawn[2], drawn[3], (float4)(1.0f));
+  Band band = one_wavelength(choice->clusters[own[0].wavelength], own[0].wavelength, own[0].weight);
+  band.own = carriers_of(own[0], own[1], own[2], own[3], drawn_at(choice, low + 0.5f * size, size).wavelength);
+  band.all = carriers_of(all[0], all[1], all[2], all[3], WAVELENGTH_COUNT / 2);
+  band.low = low;
+  band.within = within;
+  band.size = band.chance = size;
   return band;
 }
 
+// XYZ of what a path leaves of a colour: in its part of the spectrum, or in all of it, as coloured_light does.
+static inline float3 shown_after(const Background* background, const SpectrumChoice* choice, float3 rgb,
+                                 const Throughput* throughput, const Band* band) {
+  const bool unsplit = is_unsplit(throughput, band);
+  const Parts* parts = unsplit ? &throughput->all : &throughput->own;
+  const Carriers* carriers = unsplit ? &band->all : &band->own;
+  float3 xyz = parts->middle * (unsplit ? band->chance * background_xyz(background, rgb, 0, WAVELENGTH_COUNT)
+                                        : xyz_of_part(background, choice, rgb, band->low, band->low + band->size));
+  if (!are_coloured(parts)) return xyz;
+  for (int i = 0; i < 4; ++i) {
+    const int w = number_of_four_wavelengths(carriers, i);
+    xyz += number_of_four(carriers->weights, i) * (number_of_four(parts->four, i) - parts->middle) *
+           background_xyz(background, rgb, w, w + 1);
+  }
+  return xyz;
+}
+
+// The XYZ radiance of the environment at a path's end, in its part of the spectrum. Where the path's wavelengths go
+// different ways, each quarter of the part has a direction of its own. place: of the sample in its pixel.
+IN_PLACE float3 shown_at_end(const World* world, const Background* background, const SpectrumChoice* choice,
+                             const Path* path, const Band* band, float2 place, uint2 seed, uint sample, uint pixel) {
+  const bool swept = is_swept(world, path, band);
+  float3 xyz = (float3)(0.0f);
+  for (int i = 0; i < (swept ? 4 : 1); ++i) {
+    Path way = *path;
+    Band shown = *band;
+    if (swept) {
+      shown = quarter_of_band(band, i);
+      const float x = beyond_leader(world, band, number_of_four_wavelengths(&band->own, i));
+      way.direction = normalize(way.direction + x * way.differential.direction);
+    }
+#if NEPHROID_PLACE_DIFFERENTIALS
+    const Piece piece = piece_of(&way, place, piece_edges(sample / NEPHROID_FILM_HALVES));
+    const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, sample, pixel, 0u, STREAM_PEAKS).xy);
+#else
+    const float3 rgb = background_rgb(background, way.direction);
+#endif
+    xyz += shown_after(background, choice, rgb, &path->throughput, &shown);
+  }
+  return xyz;
+}
+
 // samples: [count], each a pixel and the sample's number there.
-__kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz,
-                         DeviceBackground size,
-                         __global const float* spectrum_cdf, // [401]: chances of a path through glass
+__kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_before,
+                         DeviceBackground size, __global const float* spectrum_cdf,
+                         __global const int* spectrum_clusters,
                          volatile __global long* film,
                          volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                          DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
   const World world = WORLD;
-  const Background background = {texels, primary_xyz, size};
+  const Background background = {texels, primary_before, size};
+  const SpectrumChoice choice = {spectrum_cdf, spectrum_clusters};
   const uint index = work_item();
   if (index >= launch.count) return;
   const uint pixel = samples[index].x;
@@ -94,23 +119,30 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
   float3 direction;
   EYE_OF(camera);
-  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_BACKGROUND, &direction);
+  Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_BACKGROUND, &direction);
 
-  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
-  SET_ASIDE Hit first = hit;
-  if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
+  SET_ASIDE float3 xyz = (float3)(0.0f);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
+    xyz = background_xyz(&background, background_rgb(&background, direction), 0, WAVELENGTH_COUNT);
+  } else {
     const DeviceMaterial met = material_of_hit(&world, &hit);
     if (is_only_matt(&met)) return;
+    uint parts;
+    const float place =
+        place_in_spectrum(launch.seed, frame, 0u, 1u, pixel, STREAM_BACKGROUND_WAVELENGTH, &parts);
+    const Band band = choose_background_band(&choice, place, parts);
+    const Path path = path_from_eye(eye, direction);
+    Visitor branches;
+    begin_branches(&branches, &path, &band, launch.seed, frame, pixel, STREAM_BACKGROUND);
+    do {
+      Interaction at;
+      int last;
+      if (follow_branch(&world, &branches, &hit, &at, &last) == WALK_LEFT)
+        xyz += branches.branch.share * branches.branch.scale / band.chance *
+               shown_at_end(&world, &background, &choice, &branches.branch.path, &band, jitter.xy, launch.seed, frame,
+                            pixel);
+    } while (next_branch(&branches));
   }
-  if (hit.primitive == NEPHROID_NO_PRIMITIVE)
-    xyz = background_xyz(&background, background_rgb(&background, direction), WAVELENGTH_COUNT);
-  else
-    for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
-      const float place = golden_place_of_four(launch.seed, frame, i, pixel, STREAM_BACKGROUND_WAVELENGTH);
-      const Band band = band_of_spectrum(spectrum_cdf, place);
-      xyz += seen_through(&world, &background, path_from_eye(eye, outwards), first, &band, jitter.xy, launch.seed,
-                          frame, i, pixel);
-    }
   add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
              limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);
 }

@@ -3,7 +3,9 @@
 // reaches unbent. Glass and mirrors block those shadow rays: light that passes them belongs to the caustic layer.
 #define NEPHROID_HIGHLIGHTS
 #include "kernels/photons/launch_types.h"
-#include "kernels/transport/eye_walk.h"
+#include "kernels/transport/branches.h"
+#include "kernels/transport/eye_band.h"
+#include "kernels/transport/sweep.h"
 #include "kernels/tracing/work_item.h"
 
 // The XYZ radiance of a lamp's own surface.
@@ -20,10 +22,9 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
                       Reflector reflector, const Band* band, uint2 seed,
                       uint sample, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
-  const uint paths = band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS;
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (is_of_environment(world, l)) {
-      const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, paths, pixel);
+      const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, 1u, pixel);
       const Source sky = {l, rgb / PI_F};
       const int first = l * world->scene.reflector_count, next = world->scene.reflector_count;
       xyz += band->cluster < 0
@@ -34,7 +35,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
       continue;
     }
     if (shines && is_on_lamp(world, l, triangle)) xyz += emitted(world, l, path, band);
-    const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
+    const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, 1u, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
     const float3 reflected =
@@ -46,22 +47,48 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
   return xyz;
 }
 
-// Follows a path that has hit `first` on through glass and mirrors. Returns the XYZ radiance of its band alone. Where
-// all its wavelengths go the same way (cluster -1), a coat that it meets first sends it to the base, else back.
-IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, uint2 seed, uint sample,
-                       uint pixel) {
-  Visitor eye =
-      eye_visitor(band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA);
-  if (is_in_air(&path.media) && shows_coat(world, &first))
-    eye.first_lobes = band->cluster < 0 ? LOBE_DIFFUSE : LOBE_REFLECTION;
-  Interaction at;
-  const float radiance_scale = reach_base(world, &eye, &path, &first, &at);
-  const float3 xyz = eye.first_shine + eye.share * eye.shine;
-  if (radiance_scale == 0.0f) return xyz;
-  const bool shines = !eye.by_microfacets && dot(path.direction, at.surface.geometric) < 0.0f;
-  const Reflector reflector = reflector_at(world, &at.surface, at.triangle);
-  return xyz + radiance_scale * shade(world, &path, &at.surface, at.triangle, shines, reflector, band, seed, sample,
-                                      pixel);
+// The XYZ radiance that the surface at a path's end sends back along it. Where the path's wavelengths go different
+// ways, each quarter of its part of the spectrum has a place of its own.
+IN_PLACE float3 shade_end(const World* world, const Path* path, const Interaction* at, bool shines, const Band* band,
+                          uint2 seed, uint sample, uint pixel) {
+  const bool swept = is_swept(world, path, band);
+  SET_ASIDE float3 xyz = (float3)(0.0f);
+  for (int i = 0; i < (swept ? 4 : 1); ++i) {
+    Surface surface = at->surface;
+    uint triangle = at->triangle;
+    Band shown = *band;
+    if (swept) {
+      shown = quarter_of_band(band, i);
+      move_end(world, path, beyond_leader(world, band, number_of_four_wavelengths(&band->own, i)), &surface, &triangle);
+    }
+    const Reflector reflector = reflector_at(world, &surface, triangle);
+    xyz += shade(world, path, &surface, triangle, shines, reflector, &shown, seed, sample, pixel);
+  }
+  return xyz;
+}
+
+// Follows the branches of a path that has hit `first` through glass and mirrors. Returns the XYZ radiance of its band
+// alone. Where all wavelengths go the same way (cluster -1), the path ends at once at that surface, or at its base below
+// a coat; else, with `after_base`, it ends anywhere else.
+IN_PLACE float3 follow(const World* world, const Path* path, Hit first, const Band* band, bool after_base, uint2 seed,
+                       uint sample, uint pixel) {
+  Visitor eye;
+  begin_branches(&eye, path, band, seed, sample, pixel, STREAM_CAMERA);
+  SET_ASIDE float3 xyz = (float3)(0.0f);
+  do {
+    Interaction at;
+    int last = 0;
+    const bool at_once = band->cluster < 0;
+    if (at_once) {
+      at = interaction_at(world, first);
+      eye.branch.share = part_to_base(world, &at.surface, path->direction);
+    } else if (follow_branch(world, &eye, &first, &at, &last) != WALK_AT_BASE || (after_base && last == 0))
+      continue;
+    const bool shines = !eye.branch.by_microfacets && dot(eye.branch.path.direction, at.surface.geometric) < 0.0f;
+    xyz += eye.branch.share * eye.branch.scale *
+           shade_end(world, &eye.branch.path, &at, shines, band, seed, sample, pixel);
+  } while (next_branch(&eye));
+  return xyz + eye.shine;
 }
 
 // samples: [count], each a pixel and the sample's number there.
@@ -82,22 +109,16 @@ __kernel void direct(WORLD_ARGUMENTS,
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
-  const uint straight = unbent ? 1u : 0u,
-             paths = straight + (unbent && !shows_coat(&world, &hit) ? 0u : PATHS_THROUGH_GLASS);
+  const uint straight = unbent ? 1u : 0u, paths = straight + (unbent && !shows_coat(&world, &hit) ? 0u : 1u);
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < paths; ++i) {
     const Path way = path_from_eye(eye, outwards);
-    const bool bent = i >= straight;
-    const uint number = i - (bent ? straight : 0u), sample = bent ? frame * PATHS_THROUGH_GLASS + number : frame;
     Band band = whole_cluster(-1);
     float chance = 1.0f;
-    if (bent) {
-      const float place = golden_place_of_four(launch.seed, frame, number, pixel, STREAM_CAMERA_CLUSTER);
-      band = choose_eye_band(&world, scene.light_count, place, &chance);
-    }
-    xyz += follow(&world, way, first, &band, launch.seed, sample, pixel) /
-           (bent ? chance * (float)PATHS_THROUGH_GLASS : 1.0f);
+    if (i >= straight)
+      band = band_of_eye_path(&world, launch.seed, frame, 0u, 1u, pixel, STREAM_CAMERA_CLUSTER, &chance);
+    xyz += follow(&world, &way, first, &band, unbent, launch.seed, frame, pixel) / chance;
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
              limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);

@@ -4,6 +4,7 @@
 // everywhere is found more surely from where it falls than from where it starts.
 #include "kernels/photons/launch_types.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_band.h"
 #include "kernels/transport/eye_walk.h"
 
 #define BOUNCES 4u // of a sample, each in a band of its own
@@ -68,8 +69,7 @@ __kernel void even_sky(WORLD_ARGUMENTS, int light_index,
   for (uint i = 0; i < BOUNCES; ++i) {
     const uint sample = frame * BOUNCES + i;
     float chance;
-    const float place = golden_place_of_four(launch.seed, frame, i, pixel, STREAM_EVEN_SKY_CLUSTER);
-    const Band band = choose_eye_band(&world, light_index, place, &chance);
+    const Band band = band_of_eye_path(&world, launch.seed, frame, i, BOUNCES, pixel, STREAM_EVEN_SKY_CLUSTER, &chance);
     Path way = path_from_eye(eye, outwards);
     Hit end = first;
     Visitor eye = eye_visitor(&band, launch.seed, sample, BOUNCES, pixel, STREAM_EVEN_SKY);

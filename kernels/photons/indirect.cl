@@ -6,6 +6,7 @@
 // narrow spots, where the pixel shows no glass and no mirror.
 #include "kernels/photons/launch_types.h"
 #include "kernels/tracing/work_item.h"
+#include "kernels/transport/eye_band.h"
 #include "kernels/transport/eye_path.h"
 #include "kernels/transport/scatter_path.h"
 
@@ -16,17 +17,17 @@ typedef struct {
   SET_ASIDE uint scatterings;
   bool is_bent; // since the last of them
   bool narrow;  // it brings the light of narrow spots, too
-  bool leader_alone;        // of the four wavelengths of its band: glass has split them
+  bool is_split;            // glass has split the four wavelengths of its band
+  uint parts, with_leader;  // of the spectrum; bits: which of the four are in the leader's
   Band band;
   SET_ASIDE float throughput[4]; // reflectances and n^2 behind the path; 0 where the wavelength went another way
 } Visitor;
 
-// Lets the leader stand for all four from now on.
-static inline void leave_leader(Visitor* eye) {
-  if (eye->leader_alone) return;
-  eye->leader_alone = true;
-  eye->throughput[0] *= 4.0f;
-  for (int i = 1; i < 4; ++i) eye->throughput[i] = 0.0f;
+// Lets those in the leader's part of the spectrum stand for all four from now on.
+static inline void leave_part_of_leader(Visitor* eye) {
+  if (eye->is_split) return;
+  eye->is_split = true;
+  for (int i = 0; i < 4; ++i) eye->throughput[i] *= (eye->with_leader >> i & 1u) != 0u ? (float)eye->parts : 0.0f;
 }
 
 // The XYZ that a path brings of light, as a reflector sends it.
@@ -121,7 +122,7 @@ static inline bool visit_base(const World* world, Visitor* eye, Path* path, cons
 
 static inline bool visit_scatter(const World* world, Visitor* eye, const Path* path, const Interaction* at,
                                  const ScatterSample* sample, int n) {
-  if (path->throughput.is_split) leave_leader(eye);
+  if (path->throughput.is_split) leave_part_of_leader(eye);
   for (int i = 0; i < 4; ++i) eye->throughput[i] *= sample->n_ratio * sample->n_ratio;
   eye->is_bent = true;
   eye->narrow = eye->narrow || n == 0;
@@ -138,7 +139,7 @@ static inline bool visit_scatter(const World* world, Visitor* eye, const Path* p
 IN_PLACE float3 follow(const World* world, Visitor* eye, Path path, Hit hit) {
   eye->xyz = (float3)(0.0f);
   eye->scatterings = 0u;
-  eye->leader_alone = eye->is_bent = eye->narrow = false;
+  eye->is_split = eye->is_bent = eye->narrow = false;
   Interaction at;
   int last;
   const int how = walk(world, eye, &path, &hit, true, 0, &at, &last);
@@ -173,16 +174,22 @@ __kernel void indirect(WORLD_ARGUMENTS,
     visitor.sample = frame * paths + p;
     visitor.paths = paths;
     visitor.pixel = pixel;
+    visitor.parts = min(parts_of_spectrum((frame >> 1) * paths + p), 4u);
+    visitor.with_leader = 0u;
+    uint part_of_leader = 0u;
     DrawnWavelength drawn[4];
-    for (uint i = 0; i < 4u; ++i) {
-      // Another wavelength leads each path.
-      const float place = golden_place(launch.seed, frame, (i + p) % 4u, 4u, pixel, STREAM_INDIRECT_BAND);
+    const float leads = golden_place_of_four(launch.seed, frame, p, pixel, STREAM_INDIRECT_BAND);
+    for (int i = 0; i < 4; ++i) {
+      const float place = quarters_on(leads, i);
       float chance, within;
       const int cluster = cluster_at(&world, place, &chance, &within);
       drawn[i] = draw_wavelength(&world, scene.light_count, cluster, within);
       drawn[i].weight /= chance;
-      if (i == 0u) visitor.band = one_wavelength(cluster, drawn[0].wavelength, drawn[0].weight);
+      if (i == 0) visitor.band = one_wavelength(cluster, drawn[0].wavelength, drawn[0].weight);
       visitor.throughput[i] = 1.0f;
+      const uint part = (uint)(place * (float)visitor.parts);
+      if (i == 0) part_of_leader = part;
+      visitor.with_leader |= part == part_of_leader ? 1u << i : 0u;
     }
     visitor.band.own = carriers_of(drawn[0], drawn[1], drawn[2], drawn[3], drawn[0].wavelength);
     xyz += follow(&world, &visitor, path_from_eye(eye, outwards), first) / (float)(paths * 4u);

@@ -5,90 +5,10 @@
 #define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/photons/receiver.h"
 #include "kernels/tracing/work_item.h"
-#include "kernels/transport/eye_path.h"
+#include "kernels/transport/branches.h"
+#include "kernels/transport/eye_band.h"
 #include "kernels/transport/piece.h"
-#include "kernels/transport/scatter_path.h"
-
-// The part of a sample's light below which chance decides whether a branch is followed.
-#define LEAST_SHARE 0.02f
-// How many branches of a sample can wait to be followed.
-#define EYE_PENDING 4
-
-// A branch of a path, up to its last surface.
-typedef struct {
-  Path path;
-  float share; // Fresnel's part of the pixel's radiance, over the chance that it is followed
-  float scale; // beyond: of radiance, because what glass keeps is radiance over n^2
-  int surfaces;
-} EyeBranch;
-
-// How a branch and those that wait are followed: the visitor of a walk.
-typedef struct {
-  Band band;
-  EyeBranch branch, before; // now; at the surface that scatters it
-  EyeBranch pending[EYE_PENDING];
-  int waiting;
-  uint2 seed;
-  uint sample, pixel, scattered; // scattered: how many surfaces have scattered a branch
-} Visitor;
-
-static inline Band visitor_band(const Visitor* eye) { return eye->band; }
-
-static inline WalkNumbers visitor_numbers(const Visitor* eye, const Interaction* at, int n) {
-  const WalkNumbers none = {0.0f, (float2)(0.0f)}; // where light is kept, surfaces are polished
-  return none;
-}
-
-static inline uint visitor_lobes(const Visitor* eye, const Interaction* at, int n) {
-  return LOBE_DIFFUSE | LOBE_TRANSMISSION;
-}
-
-static inline void visit_surface(const World* world, Visitor* eye, const Path* path, const Interaction* at, int n) {
-  if (!is_only_matt(&at->material)) eye->before = eye->branch;
-}
-
-static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, const Interaction* at,
-                                 const ScatterSample* sample, int n);
-
-#define WALK_SURFACES
-#define WALK_LOBES
-#define WALK_SCATTERS
-#include "kernels/transport/walk.h"
-
-// Decides by chance whether a branch of little light is followed, and then stands for those that are not.
-static inline bool is_followed(EyeBranch* branch, float u) {
-  if (branch->share >= LEAST_SHARE) return true;
-  const float chance = branch->share / LEAST_SHARE;
-  branch->share = LEAST_SHARE;
-  return u < chance;
-}
-
-static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, const Interaction* at,
-                                 const ScatterSample* sample, int n) {
-  EyeBranch *branch = &eye->branch, *reflected = &eye->before;
-  branch->surfaces = reflected->surfaces = n + 1;
-  branch->scale *= sample->n_ratio * sample->n_ratio;
-  if (!sample->transmitted || sample->reflectance == 0.0f) return true;
-  const float4 u = random4(eye->seed, eye->sample, eye->pixel, 1u + eye->scattered++, STREAM_VIEW);
-  reflected->share *= sample->reflectance;
-  branch->share *= 1.0f - sample->reflectance;
-  bool goes_through = is_followed(branch, u.x), goes_back = is_followed(reflected, u.y);
-  if (goes_through && goes_back && eye->waiting == EYE_PENDING) { // no room: one stands for both
-    const float chance = branch->share / (branch->share + reflected->share);
-    goes_through = u.z < chance;
-    goes_back = !goes_through;
-    branch->share /= chance;
-    reflected->share /= 1.0f - chance;
-  }
-  const WalkNumbers none = {0.0f, (float2)(0.0f)};
-  ScatterSample back;
-  goes_back = goes_back && scatter_path(world, &reflected->path, at, &eye->band, LOBE_REFLECTION, none, &back);
-  if (goes_through && goes_back)
-    eye->pending[eye->waiting++] = *reflected;
-  else if (goes_back)
-    *branch = *reflected;
-  return goes_through || goes_back;
-}
+#include "kernels/transport/sweep.h"
 
 // Begins the paths of a sample. place: in its pixel. False: what it meets first does not bend them.
 static inline bool begin_sample(const World* world, Visitor* eye, DeviceCamera* camera, const Band* band, float2 place,
@@ -98,21 +18,15 @@ static inline bool begin_sample(const World* world, Visitor* eye, DeviceCamera* 
   if (first->primitive == NEPHROID_NO_PRIMITIVE) return false;
   const DeviceMaterial met = material_of_hit(world, first);
   if (is_only_matt(&met)) return false;
-  eye->band = *band;
-  eye->branch.path = path_from_eye(camera, direction);
-  eye->branch.share = eye->branch.scale = 1.0f;
-  eye->branch.surfaces = 0;
-  eye->waiting = 0;
-  eye->seed = seed;
-  eye->sample = sample;
-  eye->pixel = pixel;
-  eye->scattered = 0u;
+  const Path path = path_from_eye(camera, direction);
+  begin_branches(eye, &path, band, seed, sample, pixel, STREAM_VIEW);
   return true;
 }
 
 // A branch that has ended on a diffuse surface.
 typedef struct {
   Surface surface;
+  uint triangle;
   float side;   // of the surface, that it arrives on
   float3 a, b;  // its footprint, which is the sample's piece of its pixel
   float2 place; // in the piece
@@ -123,11 +37,11 @@ IN_PLACE bool reaches_receiver(const World* world, Visitor* eye, Hit* first, flo
   Interaction at;
   int surface_number;
   Path* const path = &eye->branch.path;
-  const int surfaces = eye->branch.surfaces;
-  if (walk(world, eye, path, first, surfaces == 0, surfaces, &at, &surface_number) != WALK_AT_BASE) return false;
+  if (follow_branch(world, eye, first, &at, &surface_number) != WALK_AT_BASE) return false;
   const float3 normal = at.surface.geometric;
   const float distance = dot(at.surface.position - path->origin, path->direction);
   end->surface = at.surface;
+  end->triangle = at.triangle;
   end->side = dot(path->direction, normal) < 0.0f ? 1.0f : -1.0f;
   end->a = edges.x * transferred(&path->by_place[0], path->direction, distance, normal);
   end->b = edges.y * transferred(&path->by_place[1], path->direction, distance, normal);
@@ -147,7 +61,7 @@ __kernel void ask_for_pages(WORLD_ARGUMENTS, __global const int* receiver_table,
   for (uint i = 0; i < ASKING_ENDS; ++i) looks[ASKING_ENDS * index + i] = none;
   const float2 place = eye_numbers(launch.seed, launch.first_sample, 1u, pixel, 0u, STREAM_VIEW).xy;
   float chance;
-  const Band band = choose_eye_band(&world, scene.light_count, 0.5f, &chance);
+  const Band band = choose_eye_band(&world, 0.5f, 1u, &chance);
   DeviceCamera from = camera;
   Visitor eye;
   Hit hit;
@@ -159,25 +73,79 @@ __kernel void ask_for_pages(WORLD_ARGUMENTS, __global const int* receiver_table,
       const DeviceLook asked = {look.chart, look.middle.x, look.middle.y, look.level};
       if (look.chart != NO_PAGE) looks[ASKING_ENDS * index + i] = asked;
     }
-    if (eye.waiting == 0) break;
-    eye.branch = eye.pending[--eye.waiting];
+    if (!next_branch(&eye)) break;
   }
 }
 
-// The light of an end. Where nothing has parted or coloured its wavelengths, that of all layers; else that of its
-// cluster's layer, over the chance of that.
+// The chances of a layer's clusters, from the first place on and before the last (member_at).
+static inline float2 places_of_layer(const World* world, const Receivers* on, int layer) {
+  const int clusters = world->scene.cluster_count;
+  return (float2)(world->cluster_cdf[(layer * clusters + on->layers - 1) / on->layers],
+                  world->cluster_cdf[((layer + 1) * clusters + on->layers - 1) / on->layers]);
+}
+
+// What is left of the light of an end, where each layer's is found at a place of its own.
 static inline float3 light_of_end(const World* world, const Receivers* on, __global const float* totals, uint film_half,
-                                  const EyeEnd* end, const Throughput* throughput, const Band* band) {
-  if (!throughput->is_split && is_full(throughput))
-    return look_at_receiver(on, &end->surface, end->side, end->a, end->b, end->place,
-                            totals + first_texel(on, film_half, 0), on->layers);
-  const int clusters = world->scene.cluster_count, layer = layer_of(on, band->cluster, clusters),
-            first = (layer * clusters + on->layers - 1) / on->layers,
-            next = ((layer + 1) * clusters + on->layers - 1) / on->layers;
-  const float chance = world->cluster_cdf[next] - world->cluster_cdf[first];
-  return part_left(throughput) / chance *
-         look_at_receiver(on, &end->surface, end->side, end->a, end->b, end->place,
-                          totals + first_texel(on, film_half, layer), 1);
+                                  const EyeEnd* end, const Path* path, const Band* band) {
+  const Throughput* throughput = &path->throughput;
+  const bool unsplit = is_unsplit(throughput, band);
+  __global const float* const first = totals + first_texel(on, film_half, 0);
+  if (!NEPHROID_JITTER && throughput->is_split) { // a cluster goes one way
+    const int layer = layer_of(on, band->cluster, world->scene.cluster_count);
+    const float2 places = places_of_layer(world, on, layer);
+    return part_left(throughput) / (places.y - places.x) *
+           look_at_receiver(on, &end->surface, end->side, end->a, end->b, end->place,
+                            first + 3 * PAGE_TEXELS * (size_t)layer, 1);
+  }
+  const Parts* parts = unsplit ? &throughput->all : &throughput->own;
+  float3 xyz = (float3)(0.0f);
+  if (unsplit || !NEPHROID_JITTER)
+    xyz = parts->middle *
+          look_at_receiver(on, &end->surface, end->side, end->a, end->b, end->place, first, on->layers);
+#if NEPHROID_JITTER
+  const bool swept = is_swept(world, path, band);
+  const float low = unsplit ? 0.0f : band->low, size = unsplit ? 1.0f : band->size;
+  for (int i = 0; !unsplit && i < (swept ? 4 : 1); ++i) {
+    const Band quarter = swept ? quarter_of_band(band, i) : *band;
+    const float before = beyond_leader(world, band, number_of_four_wavelengths(&band->own, i)),
+                end_of_quarter = quarter.low + quarter.size;
+    Surface surface = end->surface;
+    uint triangle = end->triangle;
+    if (swept) move_end(world, path, before, &surface, &triangle);
+    const int last_layer = layer_of(on, member_at(world, end_of_quarter).cluster, world->scene.cluster_count);
+    for (int layer = layer_of(on, member_at(world, quarter.low).cluster, world->scene.cluster_count);
+         layer <= last_layer; ++layer) {
+      const float2 places = places_of_layer(world, on, layer),
+                   here = (float2)(fmax(places.x, quarter.low), fmin(places.y, end_of_quarter));
+      if (!(here.y > here.x)) continue;
+      Surface of_layer = surface;
+      float3 place;
+      const int wavelength = wavelength_at(world, here.x + band->within * (here.y - here.x), 1.0f).wavelength;
+      if (swept && stretched_place(path, &surface, beyond_leader(world, band, wavelength), &place))
+        of_layer.position = place;
+      xyz += parts->middle * (here.y - here.x) / (places.y - places.x) / size *
+             look_at_receiver(on, &of_layer, end->side, end->a, end->b, end->place,
+                              first + 3 * PAGE_TEXELS * (size_t)layer, 1);
+    }
+  }
+  if (!are_coloured(parts)) return xyz;
+  for (int i = 0; i < 4; ++i) {
+    const float place = unsplit ? quarters_on(band->low + band->size * band->within, i)
+                                : low + size * quarters_on(band->within, i);
+    const Member member = member_at(world, place);
+    const int layer = layer_of(on, member.cluster, world->scene.cluster_count);
+    const float2 places = places_of_layer(world, on, layer);
+    Surface surface = end->surface;
+    uint triangle = end->triangle;
+    if (swept)
+      move_end(world, path, beyond_leader(world, band, world->tables.cluster_wavelengths[member.number]), &surface,
+               &triangle);
+    xyz += 0.25f * (number_of_four(parts->four, i) - parts->middle) / (places.y - places.x) *
+           look_at_receiver(on, &surface, end->side, end->a, end->b, end->place,
+                            first + 3 * PAGE_TEXELS * (size_t)layer, 1);
+  }
+#endif
+  return xyz;
 }
 
 // totals: by receiver_light.cl.
@@ -197,8 +165,8 @@ __kernel void see_receivers(WORLD_ARGUMENTS, __global const int* receiver_table,
     const float4 jitter = eye_numbers(launch.seed, sample, 1u, pixel, 0u, STREAM_VIEW);
     dither = jitter.z;
     float chance;
-    const Band band = choose_eye_band(&world, scene.light_count,
-                                      golden_place(launch.seed, sample, 0u, 1u, pixel, STREAM_VIEW_CLUSTER), &chance);
+    const Band band =
+        band_of_eye_path(&world, launch.seed, sample, 0u, 1u, pixel, STREAM_VIEW_CLUSTER, &chance);
     // Light is not even over a piece as a sky is: pieces shrink twice as fast, in proportion to the sample's number to
     // the power of -4/3, so that what a bent piece does to the mean vanishes.
     const uint number = min(sample / launch.sample_step, 0xffffu);
@@ -207,14 +175,12 @@ __kernel void see_receivers(WORLD_ARGUMENTS, __global const int* receiver_table,
     Visitor eye;
     Hit hit;
     if (!begin_sample(&world, &eye, &from, &band, jitter.xy, launch.seed, sample, pixel, &hit)) continue;
-    for (;;) {
+    do {
       EyeEnd end;
       if (reaches_receiver(&world, &eye, &hit, jitter.xy, edges, &end))
         xyz += eye.branch.share * eye.branch.scale *
-               light_of_end(&world, &on, totals, launch.film_half, &end, &eye.branch.path.throughput, &band);
-      if (eye.waiting == 0) break;
-      eye.branch = eye.pending[--eye.waiting];
-    }
+               light_of_end(&world, &on, totals, launch.film_half, &end, &eye.branch.path, &band);
+    } while (next_branch(&eye));
   }
   add_sample(film, energy, &camera, pixel, launch.film_half, xyz / (float)launch.sample_count, launch.film_per_quantum,
              FILM_LIMIT, dither);

@@ -3,12 +3,11 @@
 // (Elek et al. 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a rainbow
 // become one band.
 //
-// The last way of the photon of parameter s is the ray (O, D). That of another wavelength begins at O + x O' and goes
-// along D + x D', where x is its s less the photon's (differential.h). It is cut with the tangent plane of the receiver
-// exactly: a place on a grazing receiver is anything but linear in x. A wavelength's light lies as a tent over +-1 nm:
-// so it is interpolated linearly between the 401 wavelengths, and their sum stays the same.
+// A wavelength's light lies as a tent over +-1 nm: so it is interpolated linearly between the 401 wavelengths, and their
+// sum stays the same.
 #include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
+#include "kernels/transport/stretched_place.h"
 
 // The most splats of a photon, and the length in pixels below which it stays a point of its own wavelength.
 #define STRETCH_SPLATS 16
@@ -30,53 +29,6 @@ static inline float stretch_origin(const World* world, const Band* band) {
   return band->wavelength >= 0 ? world->stretch_place[band->wavelength].x : world->stretch_span[band->cluster].x;
 }
 
-// The place of light whose s is larger by x, on the tangent plane at the photon's place. False where there is none.
-static inline bool stretched_place(const Path* path, const Surface* surface, float x, float3* place) {
-  const float3 origin = path->origin + x * path->differential.position;
-  const float3 direction = path->direction + x * path->differential.direction;
-  // Everything is relative to the photon's place, which is exact: its neighbours are then as exact as their distance.
-  const float before = dot(path->direction, surface->geometric), along = dot(direction, surface->geometric);
-  const float3 to_surface = surface->position - origin;
-  const float distance = dot(to_surface, surface->geometric) / along;
-  *place = surface->position + (distance * direction - to_surface);
-  return along * before > 0.0f && distance > 0.0f && all(isfinite(*place));
-}
-
-// Whether a point of a triangle's plane lies in the triangle; false for an ellipsoid's tangent plane.
-static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float3 position) {
-  const DevicePrimitive met = geometry->primitives[triangle];
-  if (is_ellipsoid(&met)) return false;
-  const float3 e1 = met.edge_u.xyz, e2 = met.edge_v.xyz, from_a = position - met.corner.xyz;
-  const float3 across = cross(e1, e2);
-  const float u = dot(cross(from_a, e2), across), v = dot(cross(e1, from_a), across);
-  return u >= 0.0f && v >= 0.0f && u + v <= dot(across, across);
-}
-
-// Finds the receiver beside the photon's triangle by a short ray back along the normal. False where that does not meet
-// the same object, facing the same way: the receiver ends, or something stands on it.
-static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface,
-                                  uint* triangle) {
-  const float reach = 0.1f * distance(place, end->surface.position) + 8.0f * end->surface.offset;
-  const float3 down = -side * end->surface.geometric;
-  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down,
-                              down, 0.0f, 2.0f * reach, NEPHROID_NO_PRIMITIVE);
-  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return false;
-  *surface = surface_of(world, hit);
-  *triangle = hit.primitive;
-  return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
-}
-
-// Whether a place on the tangent plane is on the receiver. *beside: in another triangle.
-static inline bool is_on_receiver(const World* world, const PhotonEnd* end, const Path* path, float3 place,
-                                  bool* beside) {
-  if (is_in_triangle(&world->geometry, end->triangle, place)) return true;
-  *beside = true;
-  Surface surface;
-  uint triangle;
-  return surface_beside(world, end, dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f, place, &surface,
-                        &triangle);
-}
-
 // Tries to stretch a photon from `low` to `high`, its own s being 0. False: that leaves the receiver or goes too far.
 static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
                                 float low, float high, float shortest, float widest, Stretch* stretch) {
@@ -87,8 +39,10 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
   float depth;
   const float pixels = distance(place_on_film(camera, first, &depth), place_on_film(camera, last, &depth));
   if (pixels < shortest) return true;
+  const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
   for (int i = 0; i < 2; ++i) // a loop, for one copy of the code
-    if (!is_on_receiver(world, end, path, i == 0 ? first : last, &stretch->beside)) return false;
+    if (!is_on_receiver(world, &end->surface, end->triangle, side, i == 0 ? first : last, &stretch->beside))
+      return false;
   stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
   return true;
 }
@@ -169,16 +123,8 @@ COMPILED_ONCE bool strand_of(const World* world, const PhotonEnd* end, const Pat
     x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
-#if NEPHROID_NORMAL_MAPS
-  const float2 at = place_in_triangle(world, end->triangle, place);
-  const Hit there = {0.0f, at.x, at.y, end->triangle};
-  strand->surface = surface_of(world, there);
-#endif
-  strand->surface.position = place;
-  if (stretch->beside && !is_in_triangle(&world->geometry, end->triangle, place)) {
-    const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
-    if (!surface_beside(world, end, side, place, &strand->surface, &strand->triangle)) return false;
-  }
+  const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
+  if (!move_on_receiver(world, side, place, stretch->beside, &strand->surface, &strand->triangle)) return false;
   if (NEPHROID_TEXTURES || stretch->whole) {
     const Reflector reflector = reflector_at(world, &strand->surface, strand->triangle);
     strand->xyz = carried_light(world, &throughput, source, &wavelength, reflector).xyz;

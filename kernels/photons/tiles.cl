@@ -59,18 +59,6 @@ static inline Reflector reflector_of_tile(const World* world, const Surface* sur
 }
 
 #if NEPHROID_DIFFERENTIALS
-// The light of the part 0 .. u of a cluster's distribution of wavelengths, in a row of the tables of lights.
-static inline float3 light_before(const World* world, __global const float* cdf, int row, Reflector reflector,
-                                  int first, int count, float u) {
-  u = fmin(u, 0x1.fffffep-1f);
-  const int member = choose(cdf, count, u), members = world->tables.cluster_first[world->scene.cluster_count];
-  const int wavelength = world->tables.cluster_wavelengths[first + member];
-  const float before = chance_before(cdf, member), part = (u - before) / (cdf[member] - before);
-  return world->reflected_before[(row * world->scene.reflector_count + reflector.row) * members + first + member].xyz +
-         part * reflectance_of(&world->tables, reflector, wavelength) *
-             world->tables.light_xyz[row * WAVELENGTH_COUNT + wavelength].xyz;
-}
-
 // The light of the part low .. high of a cluster's distribution of wavelengths, as PhotonEnd's xyz.
 static inline float3 light_of_part(const World* world, Source source, int cluster, Reflector reflector, float low,
                                    float high) {
@@ -78,12 +66,21 @@ static inline float3 light_of_part(const World* world, Source source, int cluste
   __global const float* cdf =
       world->tables.wavelength_cdf + source.light * world->tables.cluster_first[world->scene.cluster_count] + first;
   const bool is_sky = is_of_environment(world, source.light);
+  int numbers[2];
+  float parts[2];
+  for (int i = 0; i < 2; ++i) {
+    const float u = fmin(i == 0 ? low : high, 0x1.fffffep-1f);
+    const int member = choose(cdf, count, u);
+    const float before = chance_before(cdf, member);
+    numbers[i] = first + member;
+    parts[i] = (u - before) / (cdf[member] - before);
+  }
   float3 xyz = (float3)(0.0f);
   for (int row = 0; row < (is_sky ? 3 : 1); ++row) {
     const float of_row = row == 0 ? source.rgb.x : row == 1 ? source.rgb.y : source.rgb.z;
     const float3 of_part =
-        light_before(world, cdf, source.light + row, reflector, first, count, high) -
-        light_before(world, cdf, source.light + row, reflector, first, count, low);
+        light_before(world, source.light + row, reflector, numbers[1], parts[1]) -
+        light_before(world, source.light + row, reflector, numbers[0], parts[0]);
     xyz += (is_sky ? of_row : 1.0f) * of_part;
   }
   return xyz;
@@ -167,7 +164,7 @@ static inline Footprint footprint_at(const World* world, const DeviceCamera* cam
       Surface beside;
       uint triangle;
       fits = is_in_triangle(&world->geometry, strand->triangle, corner) ||
-             surface_beside(world, end, side, corner, &beside, &triangle);
+             surface_beside(world, &end->surface, side, corner, &beside, &triangle);
     }
     if (fits) return f;
   }
@@ -211,10 +208,7 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
       if (!stretched_place(path, &end->surface, x, &place)) continue;
       strand.surface = end->surface;
       strand.triangle = end->triangle;
-      strand.surface.position = place;
-      if (sweep.beside && !is_in_triangle(&world->geometry, end->triangle, place) &&
-          !surface_beside(world, end, side, place, &strand.surface, &strand.triangle))
-        continue;
+      if (!move_on_receiver(world, side, place, sweep.beside, &strand.surface, &strand.triangle)) continue;
     }
 #endif
     if (camera->receiver >= 0 && strand.surface.object != camera->receiver) continue;

@@ -27,9 +27,13 @@ typedef struct {
   int cluster;    // -1: all wavelengths, which go the same way where nothing is bent
   int wavelength; // 0..400, the one that leads; -1: the whole cluster goes the same way
   float weight;   // for a single wavelength: 1 / its probability in the cluster
-  Carriers own;   // of the cluster
+  Carriers own;   // of the cluster, or of the spectrum's part
   Carriers all;   // of all clusters, until glass splits them; their weights are times `chance`
-  float chance;   // of the cluster among all that might lead; 0: the path has but its own cluster from the start
+  float chance;   // of the cluster or part among all that might lead; 0: the path has but those from the start
+  // The part of the spectrum that a path from the eye stands for where glass has split it, as places (member_at) from
+  // `low` on; size 0: the cluster, or the wavelength.
+  float low, size;
+  float within; // the leader's place in that part, 0..1
 } Band;
 
 static inline Band whole_cluster(int cluster) {
@@ -42,7 +46,7 @@ static inline Band one_wavelength(int cluster, int wavelength, float weight) {
   return band;
 }
 
-// A member of a cluster.
+// A member of a cluster, or of the spectrum.
 typedef struct {
   int wavelength;
   float weight; // 1 / its probability

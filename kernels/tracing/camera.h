@@ -26,7 +26,8 @@ static inline DeviceCamera through_lens(const DeviceCamera* camera, float2 lens)
 
 // direction: unit, along forward + x right + y up, so its derivative by x is (right - (right.D) D) (forward.D).
 static inline Path path_from_eye(const DeviceCamera* camera, float3 direction) {
-  Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, full_throughput(), 0.0f};
+  const Differential none = {(float3)(0.0f), (float3)(0.0f)};
+  Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, full_throughput(), 0.0f, none};
 #if NEPHROID_PLACE_DIFFERENTIALS
   const float along = dot(direction, camera->forward.xyz);
   const float3 right = camera->right.xyz, up = camera->up.xyz;

@@ -69,8 +69,8 @@
 #define COLOUR_TABLES(TABLE) \
   TABLE(float, cluster_cdf, "cluster choice") /* [cluster + 1]: what paths through glass are worth */ \
   TABLE(float4, reflected_xyz_all, "reflected colours") /* [row][reflector]: reflected_xyz of all clusters */ \
-  TABLE(float4, reflected_before, "reflected colours by wavelength") /* [row][reflector][of cluster_wavelengths]: the \
-    sum over the members of the cluster before it, as reflected_xyz's */
+  TABLE(float4, reflected_before, "reflected colours by wavelength") /* [row][reflector, then white][of \
+    cluster_wavelengths]: the sum over those before it, as reflected_xyz's */
 
 #define OTHER_TABLES(TABLE) \
   OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE) TEXTURE_TABLES(TABLE) \

@@ -87,19 +87,35 @@ static inline int cluster_at(const World* world, float place, float* chance, flo
   return cluster;
 }
 
-// The band of a path from the eye. light: as in draw_wavelength. place: in [0, 1). *chance: its cluster's.
-static inline Band choose_eye_band(const World* world, int light, float place, float* chance) {
-  float within;
-  const int cluster = cluster_at(world, place, chance, &within);
-  Band band = choose_band(world, light, cluster, within);
-#if NEPHROID_JITTER && NEPHROID_UNSPLIT
-  DrawnWavelength others[3];
-  float chances[3];
-  for (int i = 0; i < 3; ++i) {
-    const int other = cluster_at(world, quarters_on(place, i + 1), chances + i, &within);
-    others[i] = draw_wavelength(world, light, other, within);
-  }
-  carry_all(&band, others[0], others[1], others[2], (float4)(*chance, chances[0], chances[1], chances[2]));
-#endif
-  return band;
+#if NEPHROID_JITTER
+// A place in the spectrum of the eye, [0, 1]: by the chances of clusters, and in each of wavelengths, as any light may
+// reach the eye.
+typedef struct {
+  int cluster, number; // of the member, in cluster_wavelengths
+  float part;          // of the member that is before the place
+  float chance;        // of the member
+} Member;
+
+COMPILED_ONCE Member member_at(const World* world, float place) {
+  Member member;
+  float chance, within;
+  member.cluster = cluster_at(world, place, &chance, &within);
+  const int first = world->tables.cluster_first[member.cluster],
+            count = world->tables.cluster_first[member.cluster + 1] - first,
+            members = world->tables.cluster_first[world->scene.cluster_count];
+  __global const float* cdf = world->tables.wavelength_cdf + world->scene.light_count * members + first;
+  const int in_cluster = choose(cdf, count, within);
+  const float before = chance_before(cdf, in_cluster), of_cluster = cdf[in_cluster] - before;
+  member.number = first + in_cluster;
+  member.part = clamp((within - before) / of_cluster, 0.0f, 1.0f);
+  member.chance = chance * of_cluster;
+  return member;
 }
+
+// Its wavelength, drawn by the place. size: of the part of the spectrum in which that is uniform.
+static inline DrawnWavelength wavelength_at(const World* world, float place, float size) {
+  const Member member = member_at(world, fmin(place, 0x1.fffffep-1f));
+  const DrawnWavelength drawn = {world->tables.cluster_wavelengths[member.number], size / member.chance};
+  return drawn;
+}
+#endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path from the eye through glass and mirrors to the first diffuse lobe, or out of the scene, in one band.
-// With NEPHROID_HIGHLIGHTS rough surfaces add the light of lamps on the way.
+// A path from the eye through glass and mirrors to the first diffuse lobe, or out of the scene, in one band. It takes
+// one way at each surface, by chance; branches.h goes all ways.
 #include "kernels/transport/eye_path.h"
 #include "kernels/transport/scatter_path.h"
 
@@ -17,10 +17,6 @@ typedef struct {
   float radiance_scale;              // beyond: of the radiance at its end, because it keeps radiance over n^2
   ScatterSample first;               // what happened at that surface
   SET_ASIDE float4 u;
-#ifdef NEPHROID_HIGHLIGHTS
-  float3 first_shine, shine; // light of lamps that rough surfaces send back: the first of first_lobes, and later ones
-  bool by_microfacets;       // a rough surface scattered it last: what it meets of a lamp is in `shine`
-#endif
 } Visitor;
 
 static inline Visitor eye_visitor(const Band* band, uint2 seed, uint sample, uint paths, uint pixel, uint stream) {
@@ -35,10 +31,6 @@ static inline Visitor eye_visitor(const Band* band, uint2 seed, uint sample, uin
   visitor.first_lobes = 0u;
   visitor.share = visitor.radiance_scale = 1.0f;
   visitor.u = (float4)(0.0f);
-#ifdef NEPHROID_HIGHLIGHTS
-  visitor.first_shine = visitor.shine = (float3)(0.0f);
-  visitor.by_microfacets = false;
-#endif
   return visitor;
 }
 
@@ -60,45 +52,6 @@ static inline uint visitor_lobes(const Visitor* eye, const Interaction* at, int 
   return n < 0 ? eye->first_lobes : LOBES_ALL;
 }
 
-#ifdef NEPHROID_HIGHLIGHTS
-// The XYZ radiance of a lamp that a rough surface sends to the path which arrives there: reflected, or through the
-// surface from beyond. paths: as in irradiance_of.
-static inline float3 highlight(const World* world, int light_index, bool beyond, const Path* path,
-                               const Interaction* at, const Band* band, uint2 seed, uint sample, uint paths,
-                               uint pixel) {
-  const Surface* surface = &at->surface;
-  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f, light_side = beyond ? -side : side;
-  const float3 n = normal_before(path->direction, surface);
-  const LightSample arrival =
-      sample_lamp(world, light_index, surface->position, beyond ? -n : n, seed, sample, paths, pixel);
-  if (!(arrival.irradiance > 0.0f) || !(light_side * dot(arrival.direction, surface->geometric) > 0.0f))
-    return (float3)(0.0f);
-  Path scattered = *path;
-  const float part = evaluate_scatter(world, &scattered, at, band, arrival.direction, beyond);
-  if (part == 0.0f || is_hidden(world, surface, start_on_side(surface, light_side), &arrival, at->triangle))
-    return (float3)(0.0f);
-  const Source lamp = {light_index, (float3)(1.0f)};
-  return carried_light(world, &scattered.throughput, lamp, band, white_reflector()).xyz * (arrival.irradiance * part);
-}
-
-// The same of all lamps on both sides, where the surface is rough.
-static inline void visit_surface(const World* world, Visitor* eye, const Path* path, const Interaction* at, int n) {
-  if (!is_rough(&at->material) || (n < 0 && (eye->first_lobes & LOBE_REFLECTION) == 0u)) return;
-  SET_ASIDE float3 xyz = (float3)(0.0f);
-  const uint numbers = eye->pixel + 0x9e3779b9u * (1u + (uint)max(n, 0));
-  const uint paths = max(eye->paths, 1u);
-  for (int l = 0; l < world->scene.light_count; ++l)
-    for (int beyond = 0; beyond < ((lobes_of(&at->material) & LOBE_TRANSMISSION) != 0u ? 2 : 1); ++beyond)
-      if (!is_of_environment(world, l)) // which paths find
-        xyz += highlight(world, l, beyond, path, at, &eye->band, eye->seed, eye->sample, paths, numbers);
-  if (n < 0)
-    eye->first_shine += xyz;
-  else
-    eye->shine += eye->radiance_scale * xyz;
-}
-#define WALK_SURFACES
-#endif
-
 // A mirror, total reflection and glass that does not bend leave one way.
 static inline bool leaves_one_way(const ScatterSample* sample) {
   return sample->reflectance == 0.0f || sample->reflectance == 1.0f;
@@ -107,9 +60,6 @@ static inline bool leaves_one_way(const ScatterSample* sample) {
 static inline bool visit_scatter(const World* world, Visitor* eye, const Path* path, const Interaction* at,
                                  const ScatterSample* sample, int n) {
   const float n_ratio = sample->n_ratio;
-#ifdef NEPHROID_HIGHLIGHTS
-  eye->by_microfacets = is_rough(&at->material) && !sample->straight;
-#endif
   if (n < 0) {
     eye->first = *sample;
     eye->share = (sample->transmitted ? 1.0f - sample->reflectance : sample->reflectance) * n_ratio * n_ratio;

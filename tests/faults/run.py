@@ -39,7 +39,7 @@ SUITES = [
     "physics.Background:BackgroundFurnace",
     "physics.Indirect:DiffuseFurnace", "physics.HalvesOfTheFilm:LowDiscrepancy:WholeClusters:WavelengthJitter",
     "physics.PhotonMaps:MapEstimators:ReceiverLight", "physics.MapBands", "physics.SmoothReceiver",
-    "physics.SpectralDifferentials",
+    "physics.SpectralDifferentials:Sweep",
     "physics.NormalMaps:RoughnessTextures:TintTextures",
     "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake:Caustics",
     "inverse.DeviceFacetsTest:Judge:Colours:Assignment",

@@ -28,7 +28,7 @@ public:
         slices_(static_cast<std::int64_t>(world.pixels.glass.size()), 1024),
         film_(world.zeroed("film light on receivers", world.film_size())), preview_film_(world.preview_film()),
         kernel_(
-            compute::Program(world.context, "photons/receiver_eye.cl", world.eye_defines()).kernel("see_receivers")) {}
+            compute::Program(world.context, "photons/receiver_eye.cl", world.eye_defines(true)).kernel("see_receivers")) {}
 
   const char* name() const override { return "light on receivers"; }
   double fraction_done() const override { return slices_.fraction_done(); }
@@ -181,7 +181,7 @@ ReceiverLight make_receiver_light(StageContext& world, const scene::Scene& scene
   const compute::Buffer<std::uint32_t> on_device(world.context, "pixels that ask", pixels);
   const compute::Buffer<shared::DeviceLook> looks(world.context, "looks", std::size_t{ASKING_ENDS} * count);
   compute::Kernel ask =
-      compute::Program(world.context, "photons/receiver_eye.cl", world.eye_defines()).kernel("ask_for_pages");
+      compute::Program(world.context, "photons/receiver_eye.cl", world.eye_defines(true)).kernel("ask_for_pages");
   if (count > 0)
     world.run(ask, count, 64,
               {{"receiver_table", table},

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path from the eye stands for a part of the spectrum (choose_eye_band). Where glass has split it, each quarter of
+// the part ends at a place of its own, to first order (Elek et al. 2014, "Spectral ray differentials").
+#include "kernels/transport/stretched_place.h"
+
+// The largest angle, in radians, between the last directions of a part for which D' predicts them. It excludes the
+// critical angle, too. Beyond it all wavelengths of a part end where its leader does.
+#define EYE_SWEEP_WIDEST 0.5f
+
+// By how much s at a wavelength is larger than the leader's.
+static inline float beyond_leader(const World* world, const Band* band, int wavelength) {
+  return world->stretch_place[wavelength].x - world->stretch_place[band->own.wavelengths.x].x;
+}
+
+// Whether a path's end is swept over its part of the spectrum.
+static inline bool is_swept(const World* world, const Path* path, const Band* band) {
+#if NEPHROID_DIFFERENTIALS && NEPHROID_JITTER
+  if (band->size == 0.0f || is_unsplit(&path->throughput, band)) return false;
+  const int4 w = band->own.wavelengths;
+  const float farthest =
+      fmax(fabs(beyond_leader(world, band, w.y)),
+           fmax(fabs(beyond_leader(world, band, w.z)), fabs(beyond_leader(world, band, w.w))));
+  return farthest * length(path->differential.direction) <= EYE_SWEEP_WIDEST;
+#else
+  return false;
+#endif
+}
+
+// The quarter of a band that its wavelength number i stands for.
+static inline Band quarter_of_band(const Band* band, int i) {
+  Band quarter = *band;
+  quarter.size *= 0.25f;
+  quarter.low += quarter.size * (float)(((int)(4.0f * band->within) + i) & 3);
+  quarter.own.weights *= (float4)(i == 0, i == 1, i == 2, i == 3);
+  return quarter;
+}
+
+// Moves *surface, where a path ends, to where light does whose s is larger by x. Where that is no diffuse surface, it
+// stays.
+static inline void move_end(const World* world, const Path* path, float x, Surface* surface, uint* triangle) {
+#if NEPHROID_DIFFERENTIALS && NEPHROID_JITTER
+  if (x == 0.0f) return;
+  const float3 origin = path->origin + x * path->differential.position,
+               direction = normalize(path->direction + x * path->differential.direction);
+  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, origin, direction,
+                              0.0f, INFINITY, path->skip);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
+  const Surface there = surface_of(world, hit);
+  const DeviceMaterial material = material_of(world, there.object);
+  if (there.object != surface->object && !is_only_matt(&material)) return;
+  *surface = there;
+  *triangle = hit.primitive;
+#endif
+}
