@@ -123,7 +123,6 @@ std::string why_points(const Settings& wanted, const scene::Scene& scene) {
           scene.lights, [](const scene::Light& light) { return !is_environment(light) && lights::has_places(light); }))
     return "a lamp of a size has too many places: a lattice for each would be coarse";
   if (tracing::count_objects(scene).mirrors > 0) return "mirrors spread a cell too far";
-  if (tracing::may_see_glass_or_mirror(scene)) return "the camera sees glass: there tiles are to be asked for";
   if (glass_meets_glass(scene)) return "glass meets glass: photons would have too many branches";
   constexpr std::uint32_t most_facets = 40, most_smooth = 4096;
   std::uint32_t facets = 0, smooth = 0; // triangles of glass

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a latitude-longitude picture at infinity: its colour in a direction, and that colour's XYZ in
-// some wavelengths. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a spectrum, the
-// sum of the fixed spectra of the three sRGB primaries (app/optics/colour.h).
+// some wavelengths. The picture has colours, but glass bends and absorbs wavelengths. So a colour stands for a
+// spectrum, the sum of the fixed spectra of the three sRGB primaries (app/optics/colour.h).
 #include "kernels/lights/light.h"
 #include "kernels/tracing/shared_types.h"
 

@@ -31,15 +31,16 @@ typedef struct {
   float3 direction;  // unit: the way of parallel light, the axis of a spot, the normal of a surface
   float radiometric; // the light's, if all of it came from there
   float3 rgb;        // of its Source
+  int object;        // that it is on, or -1
 } LightPlace;
 
 static inline LightPlace place_at(float3 position, float3 direction, float radiometric) {
-  const LightPlace place = {false, position, direction, radiometric, (float3)(1.0f)};
+  const LightPlace place = {false, position, direction, radiometric, (float3)(1.0f), -1};
   return place;
 }
 
 static inline LightPlace parallel_light(float3 direction, float radiometric) {
-  const LightPlace place = {true, (float3)(0.0f), direction, radiometric, (float3)(1.0f)};
+  const LightPlace place = {true, (float3)(0.0f), direction, radiometric, (float3)(1.0f), -1};
   return place;
 }
 

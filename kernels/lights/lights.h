@@ -14,6 +14,7 @@
 #include "kernels/lights/spectrum.h"
 #include "kernels/lights/spot.h"
 #include "kernels/lights/targets.h"
+#include "kernels/scatter/scatter.h"
 #include "kernels/tracing/registers.h"
 #include "kernels/tracing/world.h"
 
@@ -44,6 +45,18 @@ static inline float watts_into(__global const DeviceLight* light, const LightPla
   return 0.0f;
 }
 
+// The part of a place's power that it sends that way: what a luminaire's measured table says, and what passes the coat
+// of an object that shines.
+static inline float part_sent(const World* world, __global const DeviceLight* light, const LightPlace* place,
+                              float3 direction) {
+  const float part = photometric(world, light, direction);
+  if (!HAS_LIGHTS(LIGHT_MESH) || place->object < 0) return part;
+  Surface surface;
+  surface.object = place->object;
+  surface.shading = place->direction;
+  return part * part_to_base(world, &surface, direction);
+}
+
 // The irradiance in W m^-2 that a light's whole spectrum gives a surface point, without shadows, and the way to the
 // lamp: I cos(theta) / d^2 with the intensity I at one of its places, E cos(theta) of parallel light.
 typedef struct {
@@ -67,7 +80,7 @@ static inline LightSample sample_towards(const World* world, __global const Devi
   const float watts_per_steradian = watts_into(light, &from, -sample.direction, 1.0f);
   const float metres = sample.distance * world->scene.metres_per_unit;
   sample.irradiance = watts_per_steradian * cosine / (metres * metres);
-  sample.irradiance *= photometric(world, light, -sample.direction);
+  sample.irradiance *= part_sent(world, light, &from, -sample.direction);
   return sample;
 }
 
@@ -84,7 +97,7 @@ COMPILED_ONCE Emission emit(const World* world, int index, float4 random, float2
   else {
     const float steradians = sample_targets(targets, light->target_count, from.position, random, &emission);
     emission.watts = watts_into(light, &from, emission.direction, steradians) *
-                     photometric(world, light, emission.direction);
+                     part_sent(world, light, &from, emission.direction);
     emission.behind *= UP_TO_LAMP;
   }
   emission.source.light = index;
@@ -113,7 +126,7 @@ static inline Emission emit_on_lattice(const World* world, int index, int target
       for (int i = 0; i < target_count; ++i) sum += one_minus_cos_of(targets[i].centre_radius, from.position);
       const float steradians = steradians_a_photon(targets, target_count, target, sum, from.position, &emission);
       emission.watts = watts_into(light, &from, emission.direction, steradians) *
-                       photometric(world, light, emission.direction);
+                       part_sent(world, light, &from, emission.direction);
       emission.behind *= UP_TO_LAMP;
     }
   }

@@ -33,8 +33,10 @@ static inline LightPlace mesh_place(const World* world, __global const DeviceLig
 #endif
   Surface surface = surface_at(&world->geometry, hit);
   if (is_ellipsoid(&primitive)) surface.offset *= 16.0f; // paths do not know that they leave it, as they do after a hit
-  return place_at(start_on_side(&surface, 1.0f), surface.geometric,
-                  light->radiometric * (area / (light->as.mesh.area * chance)));
+  LightPlace place = place_at(start_on_side(&surface, 1.0f), surface.geometric,
+                              light->radiometric * (area / (light->as.mesh.area * chance)));
+  place.object = surface.object;
+  return place;
 }
 
 static inline float mesh_watts(__global const DeviceLight* light, const LightPlace* place, float3 direction,

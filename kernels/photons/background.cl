@@ -80,7 +80,8 @@ static inline float3 shown_after(const Background* background, const SpectrumCho
 // The XYZ radiance of the environment at a path's end, in its part of the spectrum. Where the path's wavelengths go
 // different ways, each quarter of the part has a direction of its own. place: of the sample in its pixel.
 IN_PLACE float3 shown_at_end(const World* world, const Background* background, const SpectrumChoice* choice,
-                             const Path* path, const Band* band, float2 place, uint2 seed, uint sample, uint pixel) {
+                             const Path* path, const Band* band, float2 place, uint2 seed, uint frame, uint sample,
+                             uint pixel) {
   const bool swept = is_swept(world, path, band);
   float3 xyz = (float3)(0.0f);
   for (int i = 0; i < (swept ? 4 : 1); ++i) {
@@ -92,7 +93,7 @@ IN_PLACE float3 shown_at_end(const World* world, const Background* background, c
       way.direction = normalize(way.direction + x * way.differential.direction);
     }
 #if NEPHROID_PLACE_DIFFERENTIALS
-    const Piece piece = piece_of(&way, place, piece_edges(sample / NEPHROID_FILM_HALVES));
+    const Piece piece = piece_of(&way, place, piece_edges(frame / NEPHROID_FILM_HALVES));
     const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, sample, pixel, 0u, STREAM_PEAKS).xy);
 #else
     const float3 rgb = background_rgb(background, way.direction);
@@ -119,7 +120,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
   float3 direction;
   EYE_OF(camera);
-  Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_BACKGROUND, &direction);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_BACKGROUND, &direction);
 
   SET_ASIDE float3 xyz = (float3)(0.0f);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
@@ -127,21 +128,26 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   } else {
     const DeviceMaterial met = material_of_hit(&world, &hit);
     if (is_only_matt(&met)) return;
-    uint parts;
-    const float place =
-        place_in_spectrum(launch.seed, frame, 0u, 1u, pixel, STREAM_BACKGROUND_WAVELENGTH, &parts);
-    const Band band = choose_background_band(&choice, place, parts);
-    const Path path = path_from_eye(eye, direction);
-    Visitor branches;
-    begin_branches(&branches, &path, &band, launch.seed, frame, pixel, STREAM_BACKGROUND);
-    do {
-      Interaction at;
-      int last;
-      if (follow_branch(&world, &branches, &hit, &at, &last) == WALK_LEFT)
-        xyz += branches.branch.share * branches.branch.scale / band.chance *
-               shown_at_end(&world, &background, &choice, &branches.branch.path, &band, jitter.xy, launch.seed, frame,
-                            pixel);
-    } while (next_branch(&branches));
+    const uint paths = paths_through(&met);
+    for (uint i = 0; i < paths; ++i) {
+      const uint sample = frame * paths + i;
+      uint parts;
+      const float place =
+          place_in_spectrum(launch.seed, frame, i, paths, pixel, STREAM_BACKGROUND_WAVELENGTH, &parts);
+      const Band band = choose_background_band(&choice, place, parts);
+      const Path path = path_from_eye(eye, direction);
+      Hit first = hit;
+      Visitor branches;
+      begin_branches(&branches, &path, &band, launch.seed, sample, paths, pixel, STREAM_BACKGROUND);
+      do {
+        Interaction at;
+        int last;
+        if (follow_branch(&world, &branches, &first, &at, &last) == WALK_LEFT)
+          xyz += branches.branch.share * branches.branch.scale / (band.chance * (float)paths) *
+                 shown_at_end(&world, &background, &choice, &branches.branch.path, &band, jitter.xy, launch.seed, frame,
+                              sample, pixel);
+      } while (next_branch(&branches));
+    }
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
              limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);

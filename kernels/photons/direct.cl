@@ -19,12 +19,12 @@ static inline float3 emitted(const World* world, int light_index, const Path* pa
 
 // The XYZ radiance that a diffuse surface sends back along the path. shines: with its own where it is a lamp.
 IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, bool shines,
-                      Reflector reflector, const Band* band, uint2 seed,
-                      uint sample, uint pixel) {
+                      Reflector reflector, const Band* band, uint2 seed, uint sample, uint paths,
+                      uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (is_of_environment(world, l)) {
-      const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, 1u, pixel);
+      const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, paths, pixel);
       const Source sky = {l, rgb / PI_F};
       const int first = l * world->scene.reflector_count, next = world->scene.reflector_count;
       xyz += band->cluster < 0
@@ -35,7 +35,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
       continue;
     }
     if (shines && is_on_lamp(world, l, triangle)) xyz += emitted(world, l, path, band);
-    const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, 1u, pixel);
+    const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
     const float3 reflected =
@@ -50,7 +50,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
 // The XYZ radiance that the surface at a path's end sends back along it. Where the path's wavelengths go different
 // ways, each quarter of its part of the spectrum has a place of its own.
 IN_PLACE float3 shade_end(const World* world, const Path* path, const Interaction* at, bool shines, const Band* band,
-                          uint2 seed, uint sample, uint pixel) {
+                          uint2 seed, uint sample, uint paths, uint pixel) {
   const bool swept = is_swept(world, path, band);
   SET_ASIDE float3 xyz = (float3)(0.0f);
   for (int i = 0; i < (swept ? 4 : 1); ++i) {
@@ -62,18 +62,18 @@ IN_PLACE float3 shade_end(const World* world, const Path* path, const Interactio
       move_end(world, path, beyond_leader(world, band, number_of_four_wavelengths(&band->own, i)), &surface, &triangle);
     }
     const Reflector reflector = reflector_at(world, &surface, triangle);
-    xyz += shade(world, path, &surface, triangle, shines, reflector, &shown, seed, sample, pixel);
+    xyz += shade(world, path, &surface, triangle, shines, reflector, &shown, seed, sample, paths, pixel);
   }
   return xyz;
 }
 
-// Follows the branches of a path that has hit `first` through glass and mirrors. Returns the XYZ radiance of its band
-// alone. Where all wavelengths go the same way (cluster -1), the path ends at once at that surface, or at its base below
-// a coat; else, with `after_base`, it ends anywhere else.
+// Follows the branches of a path that has hit `first` through glass and mirrors. Returns the XYZ radiance of its band.
+// One of all wavelengths (cluster -1) ends at once on that surface, or on its base below a coat. With `after_base` that
+// path has been followed already, and others do not end there.
 IN_PLACE float3 follow(const World* world, const Path* path, Hit first, const Band* band, bool after_base, uint2 seed,
-                       uint sample, uint pixel) {
+                       uint sample, uint paths, uint pixel) {
   Visitor eye;
-  begin_branches(&eye, path, band, seed, sample, pixel, STREAM_CAMERA);
+  begin_branches(&eye, path, band, seed, sample, paths, pixel, STREAM_CAMERA);
   SET_ASIDE float3 xyz = (float3)(0.0f);
   do {
     Interaction at;
@@ -86,7 +86,7 @@ IN_PLACE float3 follow(const World* world, const Path* path, Hit first, const Ba
       continue;
     const bool shines = !eye.branch.by_microfacets && dot(eye.branch.path.direction, at.surface.geometric) < 0.0f;
     xyz += eye.branch.share * eye.branch.scale *
-           shade_end(world, &eye.branch.path, &at, shines, band, seed, sample, pixel);
+           shade_end(world, &eye.branch.path, &at, shines, band, seed, sample, paths, pixel);
   } while (next_branch(&eye));
   return xyz + eye.shine;
 }
@@ -109,16 +109,21 @@ __kernel void direct(WORLD_ARGUMENTS,
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
-  const uint straight = unbent ? 1u : 0u, paths = straight + (unbent && !shows_coat(&world, &hit) ? 0u : 1u);
+  const DeviceMaterial met = material_of_hit(&world, &hit);
+  const uint straight = unbent ? 1u : 0u, bent = unbent && !has_coat(&met) ? 0u : paths_through(&met);
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
-  for (uint i = 0; i < paths; ++i) {
+  for (uint i = 0; i < straight + bent; ++i) {
     const Path way = path_from_eye(eye, outwards);
+    const bool is_bent = i >= straight;
+    const uint number = i - straight;
     Band band = whole_cluster(-1);
     float chance = 1.0f;
-    if (i >= straight)
-      band = band_of_eye_path(&world, launch.seed, frame, 0u, 1u, pixel, STREAM_CAMERA_CLUSTER, &chance);
-    xyz += follow(&world, &way, first, &band, unbent, launch.seed, frame, pixel) / chance;
+    if (is_bent)
+      band = band_of_eye_path(&world, launch.seed, frame, number, bent, pixel, STREAM_CAMERA_CLUSTER, &chance);
+    xyz += follow(&world, &way, first, &band, unbent, launch.seed, is_bent ? frame * bent + number : frame,
+                  is_bent ? bent : 1u, pixel) /
+           (is_bent ? chance * (float)bent : 1.0f);
   }
   add_sample(film, energy, &camera, pixel, frame, xyz, launch.film_scale,
              limit_of_sample(frame, launch.enough, launch.film_limit), jitter.z);

@@ -19,7 +19,7 @@ static inline bool begin_sample(const World* world, Visitor* eye, DeviceCamera* 
   const DeviceMaterial met = material_of_hit(world, first);
   if (is_only_matt(&met)) return false;
   const Path path = path_from_eye(camera, direction);
-  begin_branches(eye, &path, band, seed, sample, pixel, STREAM_VIEW);
+  begin_branches(eye, &path, band, seed, sample, 1u, pixel, STREAM_VIEW);
   return true;
 }
 

@@ -3,8 +3,8 @@
 // (Elek et al. 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a rainbow
 // become one band.
 //
-// A wavelength's light lies as a tent over +-1 nm: so it is interpolated linearly between the 401 wavelengths, and their
-// sum stays the same.
+// A wavelength's light lies as a tent over +-1 nm. So it is interpolated linearly between the 401 wavelengths, and
+// their sum stays the same.
 #include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
 #include "kernels/transport/stretched_place.h"

@@ -27,7 +27,8 @@ typedef struct {
   EyeBranch pending[EYE_PENDING];
   int waiting;
   uint2 seed;
-  uint sample, pixel, stream, met; // met: how many surfaces all branches have met
+  uint sample, paths, pixel, stream; // of eye_numbers
+  uint met;                          // how many surfaces all branches have met
   WalkNumbers numbers;             // of the surface
   uint lobes;                      // that the branch may take there
 #ifdef NEPHROID_HIGHLIGHTS
@@ -47,14 +48,18 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
 #define WALK_SCATTERS
 #include "kernels/transport/walk.h"
 
-static inline void begin_branches(Visitor* eye, const Path* path, const Band* band, uint2 seed, uint sample, uint pixel,
-                                  uint stream) {
+// How many paths a sample has that meets this first: facets are left to chance.
+static inline uint paths_through(const DeviceMaterial* first) { return is_rough(first) ? PATHS_THROUGH_GLASS : 1u; }
+
+static inline void begin_branches(Visitor* eye, const Path* path, const Band* band, uint2 seed, uint sample, uint paths,
+                                  uint pixel, uint stream) {
   eye->band = *band;
   eye->branch.path = *path;
   eye->branch.share = eye->branch.scale = 1.0f;
   eye->branch.surfaces = eye->waiting = 0;
   eye->seed = seed;
   eye->sample = sample;
+  eye->paths = paths;
   eye->pixel = pixel;
   eye->stream = stream;
   eye->met = 0u;
@@ -92,12 +97,13 @@ static inline void choose_branches(Visitor* eye, EyeBranch* other, bool* follows
 // The XYZ radiance of a lamp that a rough surface sends to the path which arrives there: reflected, or through the
 // surface from beyond.
 static inline float3 highlight(const World* world, int light_index, bool beyond, const Path* path,
-                               const Interaction* at, const Band* band, uint2 seed, uint sample, uint pixel) {
+                               const Interaction* at, const Band* band, uint2 seed, uint sample, uint paths,
+                               uint pixel) {
   const Surface* surface = &at->surface;
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f, light_side = beyond ? -side : side;
   const float3 n = normal_before(path->direction, surface);
   const LightSample arrival =
-      sample_lamp(world, light_index, surface->position, beyond ? -n : n, seed, sample, 1u, pixel);
+      sample_lamp(world, light_index, surface->position, beyond ? -n : n, seed, sample, paths, pixel);
   if (!(arrival.irradiance > 0.0f) || !(light_side * dot(arrival.direction, surface->geometric) > 0.0f))
     return (float3)(0.0f);
   Path scattered = *path;
@@ -115,7 +121,7 @@ static inline float3 highlights(const World* world, const Visitor* eye, const Pa
   for (int l = 0; l < world->scene.light_count; ++l)
     for (int beyond = 0; beyond < ((lobes_of(&at->material) & LOBE_TRANSMISSION) != 0u ? 2 : 1); ++beyond)
       if (!is_of_environment(world, l)) // which paths find
-        xyz += highlight(world, l, beyond, path, at, &eye->band, eye->seed, eye->sample, numbers);
+        xyz += highlight(world, l, beyond, path, at, &eye->band, eye->seed, eye->sample, eye->paths, numbers);
   return xyz;
 }
 #endif

@@ -57,8 +57,3 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
   return is_matt(&material) && is_in_air(&camera->inside);
 }
 
-// Whether what the camera sees first has a coat, which reflects a part of its light.
-static inline bool shows_coat(const World* world, const Hit* first) {
-  const DeviceMaterial material = material_of_hit(world, first);
-  return has_coat(&material);
-}

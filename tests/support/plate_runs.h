@@ -18,6 +18,7 @@ protected:
     std::vector<std::string> arguments{"run",   "spectral/plate",
                                        "--set", "scene.camera.resolution=[48,40]",
                                        "--set", "spectral.photons_per_pass=20000",
+                                       "--set", "spectral.estimator=points", // a round of tiles is several passes
                                        "-o",    file(name).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;

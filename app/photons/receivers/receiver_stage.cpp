@@ -27,8 +27,8 @@ public:
       : world_(world), light_(world.receivers.value()), paths_(world.tables.eye_paths),
         slices_(static_cast<std::int64_t>(world.pixels.glass.size()), 1024),
         film_(world.zeroed("film light on receivers", world.film_size())), preview_film_(world.preview_film()),
-        kernel_(
-            compute::Program(world.context, "photons/receiver_eye.cl", world.eye_defines(true)).kernel("see_receivers")) {}
+        kernel_(compute::Program(world.context, "photons/receiver_eye.cl", world.eye_defines(true))
+                    .kernel("see_receivers")) {}
 
   const char* name() const override { return "light on receivers"; }
   double fraction_done() const override { return slices_.fraction_done(); }
