@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <numeric>
 #include <vector>
 
@@ -58,11 +59,17 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
   return tables;
 }
 
-/// [401]; 0 for a wavelength that is in no cluster.
+/// [401]; of a wavelength that is in no cluster the nearest one's.
 std::vector<int> clusters_of_wavelengths(const std::vector<std::vector<int>>& clusters) {
-  std::vector<int> result(wavelength_count, 0);
+  std::vector<int> result(wavelength_count, 0), distance(wavelength_count, wavelength_count);
   for (std::size_t c = 0; c < clusters.size(); ++c)
-    for (const int w : clusters[c]) result[static_cast<std::size_t>(w)] = static_cast<int>(c);
+    for (const int w : clusters[c])
+      for (int other = 0; other < static_cast<int>(result.size()); ++other) {
+        const auto at = static_cast<std::size_t>(other);
+        if (std::abs(other - w) >= distance[at]) continue;
+        distance[at] = std::abs(other - w);
+        result[at] = static_cast<int>(c);
+      }
   return result;
 }
 

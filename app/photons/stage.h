@@ -17,8 +17,8 @@
 
 namespace nephroid::photons {
 
-/// A path from the eye takes about as long as a photon, and twice as long through glass. There, a sample
-/// has so many paths (PATHS_THROUGH_GLASS in kernels/transport/eye_path.h).
+/// A path from the eye takes about as long as a photon, and twice as long through glass. There, a sample has about so
+/// many paths or branches (PATHS_THROUGH_GLASS in kernels/transport/eye_path.h).
 inline constexpr double work_of_a_path = 1, work_through_glass = 2, paths_through_glass = 4;
 
 /// The noise of a stage, and how much it matters in the picture.

@@ -51,6 +51,8 @@ static inline float part_sent(const World* world, __global const DeviceLight* li
                               float3 direction) {
   const float part = photometric(world, light, direction);
   if (!HAS_LIGHTS(LIGHT_MESH) || place->object < 0) return part;
+  const DeviceMaterial material = material_of(world, place->object);
+  if (!has_coat(&material)) return part;
   Surface surface;
   surface.object = place->object;
   surface.shading = place->direction;

@@ -80,7 +80,7 @@ static inline float3 shown_after(const Background* background, const SpectrumCho
 // The XYZ radiance of the environment at a path's end, in its part of the spectrum. Where the path's wavelengths go
 // different ways, each quarter of the part has a direction of its own. place: of the sample in its pixel.
 IN_PLACE float3 shown_at_end(const World* world, const Background* background, const SpectrumChoice* choice,
-                             const Path* path, const Band* band, float2 place, uint2 seed, uint frame, uint sample,
+                             const Path* path, const Band* band, float2 place, uint2 seed, uint frame, uint number,
                              uint pixel) {
   const bool swept = is_swept(world, path, band);
   float3 xyz = (float3)(0.0f);
@@ -94,7 +94,7 @@ IN_PLACE float3 shown_at_end(const World* world, const Background* background, c
     }
 #if NEPHROID_PLACE_DIFFERENTIALS
     const Piece piece = piece_of(&way, place, piece_edges(frame / NEPHROID_FILM_HALVES));
-    const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, sample, pixel, 0u, STREAM_PEAKS).xy);
+    const float3 rgb = rgb_of_piece(&world->sky, background, &piece, random4(seed, number, pixel, 0u, STREAM_PEAKS).xy);
 #else
     const float3 rgb = background_rgb(background, way.direction);
 #endif
@@ -130,7 +130,6 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
     if (is_only_matt(&met)) return;
     const uint paths = paths_through(&met);
     for (uint i = 0; i < paths; ++i) {
-      const uint sample = frame * paths + i;
       uint parts;
       const float place =
           place_in_spectrum(launch.seed, frame, i, paths, pixel, STREAM_BACKGROUND_WAVELENGTH, &parts);
@@ -138,14 +137,14 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
       const Path path = path_from_eye(eye, direction);
       Hit first = hit;
       Visitor branches;
-      begin_branches(&branches, &path, &band, launch.seed, sample, paths, pixel, STREAM_BACKGROUND);
+      begin_branches(&branches, &path, &band, launch.seed, frame, i, paths, pixel, STREAM_BACKGROUND);
       do {
         Interaction at;
         int last;
         if (follow_branch(&world, &branches, &first, &at, &last) == WALK_LEFT)
           xyz += branches.branch.share * branches.branch.scale / (band.chance * (float)paths) *
                  shown_at_end(&world, &background, &choice, &branches.branch.path, &band, jitter.xy, launch.seed, frame,
-                              sample, pixel);
+                              branches.number, pixel + 0x9e3779b9u * branches.met);
       } while (next_branch(&branches));
     }
   }

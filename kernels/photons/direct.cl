@@ -71,9 +71,9 @@ IN_PLACE float3 shade_end(const World* world, const Path* path, const Interactio
 // One of all wavelengths (cluster -1) ends at once on that surface, or on its base below a coat. With `after_base` that
 // path has been followed already, and others do not end there.
 IN_PLACE float3 follow(const World* world, const Path* path, Hit first, const Band* band, bool after_base, uint2 seed,
-                       uint sample, uint paths, uint pixel) {
+                       uint frame, uint i, uint paths, uint pixel) {
   Visitor eye;
-  begin_branches(&eye, path, band, seed, sample, paths, pixel, STREAM_CAMERA);
+  begin_branches(&eye, path, band, seed, frame, i, paths, pixel, STREAM_CAMERA);
   SET_ASIDE float3 xyz = (float3)(0.0f);
   do {
     Interaction at;
@@ -86,7 +86,8 @@ IN_PLACE float3 follow(const World* world, const Path* path, Hit first, const Ba
       continue;
     const bool shines = !eye.branch.by_microfacets && dot(eye.branch.path.direction, at.surface.geometric) < 0.0f;
     xyz += eye.branch.share * eye.branch.scale *
-           shade_end(world, &eye.branch.path, &at, shines, band, seed, sample, paths, pixel);
+           shade_end(world, &eye.branch.path, &at, shines, band, seed, eye.sample, paths,
+                     pixel + 0x9e3779b9u * eye.met); // each end has places of lamps of its own
   } while (next_branch(&eye));
   return xyz + eye.shine;
 }
@@ -116,12 +117,11 @@ __kernel void direct(WORLD_ARGUMENTS,
   for (uint i = 0; i < straight + bent; ++i) {
     const Path way = path_from_eye(eye, outwards);
     const bool is_bent = i >= straight;
-    const uint number = i - straight;
     Band band = whole_cluster(-1);
     float chance = 1.0f;
     if (is_bent)
-      band = band_of_eye_path(&world, launch.seed, frame, number, bent, pixel, STREAM_CAMERA_CLUSTER, &chance);
-    xyz += follow(&world, &way, first, &band, unbent, launch.seed, is_bent ? frame * bent + number : frame,
+      band = band_of_eye_path(&world, launch.seed, frame, i - straight, bent, pixel, STREAM_CAMERA_CLUSTER, &chance);
+    xyz += follow(&world, &way, first, &band, unbent, launch.seed, frame, is_bent ? i - straight : 0u,
                   is_bent ? bent : 1u, pixel) /
            (is_bent ? chance * (float)bent : 1.0f);
   }

@@ -174,7 +174,8 @@ __kernel void indirect(WORLD_ARGUMENTS,
     visitor.sample = frame * paths + p;
     visitor.paths = paths;
     visitor.pixel = pixel;
-    visitor.parts = min(parts_of_spectrum((frame >> 1) * paths + p), 4u);
+    const uint number = (frame >> 1) * paths + p; // as in place_in_spectrum, but where light goes on from walls
+    visitor.parts = number >= (NEPHROID_COATED ? 0u : 64u) ? 4u : number >= 16u ? 2u : 1u;
     visitor.with_leader = 0u;
     uint part_of_leader = 0u;
     DrawnWavelength drawn[4];

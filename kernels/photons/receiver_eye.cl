@@ -3,6 +3,7 @@
 // of the light there over their footprints (receiver.h). At glass a path goes both ways, as long as that is much of
 // what its pixel shows.
 #define NEPHROID_PLACE_DIFFERENTIALS 1
+#include "kernels/lights/transmittance.h"
 #include "kernels/photons/receiver.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/branches.h"
@@ -19,7 +20,7 @@ static inline bool begin_sample(const World* world, Visitor* eye, DeviceCamera* 
   const DeviceMaterial met = material_of_hit(world, first);
   if (is_only_matt(&met)) return false;
   const Path path = path_from_eye(camera, direction);
-  begin_branches(eye, &path, band, seed, sample, 1u, pixel, STREAM_VIEW);
+  begin_branches(eye, &path, band, seed, sample, 0u, 1u, pixel, STREAM_VIEW);
   return true;
 }
 
@@ -84,68 +85,73 @@ static inline float2 places_of_layer(const World* world, const Receivers* on, in
                   world->cluster_cdf[((layer + 1) * clusters + on->layers - 1) / on->layers]);
 }
 
-// What is left of the light of an end, where each layer's is found at a place of its own.
+// One layer's light on a surface that the branch arrives at. first: of all totals of the half.
+static inline float3 look_at_layer(const Receivers* on, const Path* path, const EyeEnd* end, const Surface* surface,
+                                   __global const float* first, int layer) {
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  return look_at_receiver(on, surface, side, end->a, end->b, end->place, first + 3 * PAGE_TEXELS * (size_t)layer, 1);
+}
+
+// What a path leaves of the light at its end, over the chance of its band. Where glass has split its wavelengths, the
+// light of each quarter of its part of the spectrum, and in it of each layer, is found at a place of its own.
 static inline float3 light_of_end(const World* world, const Receivers* on, __global const float* totals, uint film_half,
                                   const EyeEnd* end, const Path* path, const Band* band) {
   const Throughput* throughput = &path->throughput;
-  const bool unsplit = is_unsplit(throughput, band);
+  const bool is_whole = !throughput->is_split && is_full(throughput);
+  const int clusters = world->scene.cluster_count;
   __global const float* const first = totals + first_texel(on, film_half, 0);
-  if (!NEPHROID_JITTER && throughput->is_split) { // a cluster goes one way
-    const int layer = layer_of(on, band->cluster, world->scene.cluster_count);
-    const float2 places = places_of_layer(world, on, layer);
-    return part_left(throughput) / (places.y - places.x) *
-           look_at_receiver(on, &end->surface, end->side, end->a, end->b, end->place,
-                            first + 3 * PAGE_TEXELS * (size_t)layer, 1);
+  if (is_whole || on->layers == 1) {
+    const float3 light =
+        look_at_receiver(on, &end->surface, end->side, end->a, end->b, end->place, first, on->layers);
+    if (is_whole) return light;
+    const Reflector reflector = reflector_of_row(material_of(world, end->surface.object).reflector);
+    return transmittance(world, throughput, band, reflector) * light;
   }
-  const Parts* parts = unsplit ? &throughput->all : &throughput->own;
-  float3 xyz = (float3)(0.0f);
-  if (unsplit || !NEPHROID_JITTER)
-    xyz = parts->middle *
-          look_at_receiver(on, &end->surface, end->side, end->a, end->b, end->place, first, on->layers);
 #if NEPHROID_JITTER
-  const bool swept = is_swept(world, path, band);
-  const float low = unsplit ? 0.0f : band->low, size = unsplit ? 1.0f : band->size;
-  for (int i = 0; !unsplit && i < (swept ? 4 : 1); ++i) {
-    const Band quarter = swept ? quarter_of_band(band, i) : *band;
-    const float before = beyond_leader(world, band, number_of_four_wavelengths(&band->own, i)),
-                end_of_quarter = quarter.low + quarter.size;
-    Surface surface = end->surface;
-    uint triangle = end->triangle;
-    if (swept) move_end(world, path, before, &surface, &triangle);
-    const int last_layer = layer_of(on, member_at(world, end_of_quarter).cluster, world->scene.cluster_count);
-    for (int layer = layer_of(on, member_at(world, quarter.low).cluster, world->scene.cluster_count);
-         layer <= last_layer; ++layer) {
-      const float2 places = places_of_layer(world, on, layer),
-                   here = (float2)(fmax(places.x, quarter.low), fmin(places.y, end_of_quarter));
-      if (!(here.y > here.x)) continue;
-      Surface of_layer = surface;
-      float3 place;
-      const int wavelength = wavelength_at(world, here.x + band->within * (here.y - here.x), 1.0f).wavelength;
-      if (swept && stretched_place(path, &surface, beyond_leader(world, band, wavelength), &place))
-        of_layer.position = place;
-      xyz += parts->middle * (here.y - here.x) / (places.y - places.x) / size *
-             look_at_receiver(on, &of_layer, end->side, end->a, end->b, end->place,
-                              first + 3 * PAGE_TEXELS * (size_t)layer, 1);
-    }
+  const bool unsplit = is_unsplit(throughput, band), swept = is_swept(world, path, band);
+  const Parts* parts = unsplit ? &throughput->all : &throughput->own;
+  Band shown = *band;
+  if (unsplit) {
+    shown.within = band->low + band->size * band->within;
+    shown.low = 0.0f;
+    shown.size = 1.0f;
   }
-  if (!are_coloured(parts)) return xyz;
+  float3 xyz = (float3)(0.0f);
   for (int i = 0; i < 4; ++i) {
-    const float place = unsplit ? quarters_on(band->low + band->size * band->within, i)
-                                : low + size * quarters_on(band->within, i);
-    const Member member = member_at(world, place);
-    const int layer = layer_of(on, member.cluster, world->scene.cluster_count);
-    const float2 places = places_of_layer(world, on, layer);
+    const Band quarter = quarter_of_band(&shown, i);
+    const float last_place = quarter.low + quarter.size;
     Surface surface = end->surface;
     uint triangle = end->triangle;
     if (swept)
-      move_end(world, path, beyond_leader(world, band, world->tables.cluster_wavelengths[member.number]), &surface,
-               &triangle);
+      move_end(world, path, beyond_leader(world, band, number_of_four_wavelengths(&band->own, i)), &surface, &triangle);
+    const int last_layer = layer_of(on, member_at(world, last_place).cluster, clusters);
+    for (int layer = layer_of(on, member_at(world, quarter.low).cluster, clusters); layer <= last_layer; ++layer) {
+      const float2 places = places_of_layer(world, on, layer),
+                   here = (float2)(fmax(places.x, quarter.low), fmin(places.y, last_place));
+      if (!(here.y > here.x)) continue;
+      Surface of_layer = surface;
+      if (swept) {
+        const int wavelength = wavelength_at(world, here.x + band->within * (here.y - here.x), 1.0f).wavelength;
+        float3 place;
+        if (stretched_place(path, &surface, beyond_leader(world, band, wavelength), &place)) of_layer.position = place;
+      }
+      xyz += parts->middle * (here.y - here.x) / (places.y - places.x) / shown.size *
+             look_at_layer(on, path, end, &of_layer, first, layer);
+    }
+    if (!are_coloured(parts)) continue;
+    const Member carrier = member_at(world, shown.low + shown.size * quarters_on(shown.within, i));
+    const int layer = layer_of(on, carrier.cluster, clusters);
+    const float2 places = places_of_layer(world, on, layer);
     xyz += 0.25f * (number_of_four(parts->four, i) - parts->middle) / (places.y - places.x) *
-           look_at_receiver(on, &surface, end->side, end->a, end->b, end->place,
-                            first + 3 * PAGE_TEXELS * (size_t)layer, 1);
+           look_at_layer(on, path, end, &surface, first, layer);
   }
-#endif
   return xyz;
+#else // no glass disperses
+  const int layer = layer_of(on, band->cluster, clusters);
+  const float2 places = places_of_layer(world, on, layer);
+  return part_left(throughput) / (places.y - places.x) *
+         look_at_layer(on, path, end, &end->surface, first, layer);
+#endif
 }
 
 // totals: by receiver_light.cl.

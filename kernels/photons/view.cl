@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths from the eye through glass and mirrors to the diffuse surface whose photons they gather (gather.cl).
+#include "kernels/lights/transmittance.h"
 #include "kernels/photons/launch_types.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
@@ -8,23 +9,11 @@
 
 // The factors of X, Y and Z by which a path reduces the light that it brings to the eye. A single wavelength has its
 // own. Photons of a whole cluster carry a sum over its wavelengths, of which each can no longer be reduced for itself.
-// They get the mean over the cluster, weighted by the lights as the surface reflects them; that is exact where nothing
-// has coloured a photon.
-static inline float3 transmittance(const World* world, const Throughput* throughput, const Band* band,
-                                   Reflector reflector) {
-  float3 part = (float3)(part_left(throughput));
-  if (NEPHROID_JITTER && band->wavelength >= 0) return part;
-  if (!are_coloured(&throughput->own)) return part;
-  const Throughput full = full_throughput();
-  float3 left = (float3)(0.0f), all = (float3)(0.0f);
-  for (int l = 0; l < world->scene.light_count; ++l) {
-    left += world->lights[l].radiometric * carried_light(world, throughput, mean_source(world, l), band, reflector).xyz;
-    all += world->lights[l].radiometric * carried_light(world, &full, mean_source(world, l), band, reflector).xyz;
-  }
-  part.x = all.x > 0.0f ? left.x / all.x : 0.0f;
-  part.y = all.y > 0.0f ? left.y / all.y : 0.0f;
-  part.z = all.z > 0.0f ? left.z / all.z : 0.0f;
-  return part;
+static inline float3 part_seen(const World* world, const Throughput* throughput, const Band* band,
+                               Reflector reflector) {
+  const bool is_single = NEPHROID_JITTER && band->wavelength >= 0;
+  return is_single || !are_coloured(&throughput->own) ? (float3)(part_left(throughput))
+                                                      : transmittance(world, throughput, band, reflector);
 }
 
 static inline VisiblePoint nothing_visible(void) {
@@ -47,7 +36,7 @@ COMPILED_ONCE VisiblePoint see(const World* world, Path path, Hit hit, bool refl
   const Reflector reflector = reflector_at(world, &at.surface, at.triangle);
   point.position = (float4)(at.surface.position, 0.0f);
   point.normal = (float4)(at.surface.geometric, 0.0f);
-  point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.throughput, band, reflector), 0.0f);
+  point.throughput = (float4)(weight * radiance_scale * part_seen(world, &path.throughput, band, reflector), 0.0f);
   point.group = photon_group(at.surface.object, dot(path.direction, at.surface.geometric) < 0.0f,
                              band_number(band->cluster, part), object_count);
   return point;

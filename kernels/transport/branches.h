@@ -28,6 +28,7 @@ typedef struct {
   int waiting;
   uint2 seed;
   uint sample, paths, pixel, stream; // of eye_numbers
+  uint number;                       // of random4: it is of no other path, however many those have
   uint met;                          // how many surfaces all branches have met
   WalkNumbers numbers;             // of the surface
   uint lobes;                      // that the branch may take there
@@ -51,15 +52,17 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
 // How many paths a sample has that meets this first: facets are left to chance.
 static inline uint paths_through(const DeviceMaterial* first) { return is_rough(first) ? PATHS_THROUGH_GLASS : 1u; }
 
-static inline void begin_branches(Visitor* eye, const Path* path, const Band* band, uint2 seed, uint sample, uint paths,
-                                  uint pixel, uint stream) {
+// Begins path `i` of the `paths` of a frame.
+static inline void begin_branches(Visitor* eye, const Path* path, const Band* band, uint2 seed, uint frame, uint i,
+                                  uint paths, uint pixel, uint stream) {
   eye->band = *band;
   eye->branch.path = *path;
   eye->branch.share = eye->branch.scale = 1.0f;
   eye->branch.surfaces = eye->waiting = 0;
   eye->seed = seed;
-  eye->sample = sample;
+  eye->sample = frame * paths + i;
   eye->paths = paths;
+  eye->number = frame * PATHS_THROUGH_GLASS + i;
   eye->pixel = pixel;
   eye->stream = stream;
   eye->met = 0u;
@@ -82,13 +85,13 @@ static inline bool next_branch(Visitor* eye) {
   return true;
 }
 
-// Decides which of the branch and its other way are followed. Where one has little light, or there is no room for both,
-// chance decides, and one stands for both.
-static inline void choose_branches(Visitor* eye, EyeBranch* other, bool* follows, bool* follows_other) {
+// Decides which of the branch and its other way are followed from surface n: both at the first. Where one has little
+// light, or there is no room for both, chance decides, and one stands for both.
+static inline void choose_branches(Visitor* eye, EyeBranch* other, int n, bool* follows, bool* follows_other) {
   *follows = *follows_other = true;
   const float own = eye->branch.share, both = own + other->share;
-  if (fmin(own, other->share) >= LEAST_SHARE && eye->waiting < EYE_PENDING) return;
-  *follows = random4(eye->seed, eye->sample, eye->pixel, 1u + eye->met, eye->stream).x * both < own;
+  if (n == 0 || (fmin(own, other->share) >= LEAST_SHARE && eye->waiting < EYE_PENDING)) return;
+  *follows = random4(eye->seed, eye->number, eye->pixel, 1u + eye->met, eye->stream).x * both < own;
   *follows_other = !*follows;
   eye->branch.share = other->share = both;
 }
@@ -132,7 +135,7 @@ static inline void visit_surface(const World* world, Visitor* eye, const Path* p
   EyeBranch *branch = &eye->branch, *before = &eye->before;
   ++eye->met;
   eye->numbers.u = 0.0f; // nothing is left to chance but microfacets
-  eye->numbers.u_microfacet = microfacet_numbers(eye->seed, eye->sample, eye->pixel, eye->met, eye->stream);
+  eye->numbers.u_microfacet = microfacet_numbers(eye->seed, eye->number, eye->pixel, eye->met, eye->stream);
 #ifdef NEPHROID_HIGHLIGHTS
   if (is_rough(&at->material)) eye->shine += branch->share * branch->scale * highlights(world, eye, path, at);
 #endif
@@ -140,20 +143,20 @@ static inline void visit_surface(const World* world, Visitor* eye, const Path* p
   if (!has_coat(&at->material)) return;
   // The branch goes to the base, and another one back.
   EyeBranch reflected = *branch;
+  branch->share *= part_to_base(world, &at->surface, path->direction);
   ScatterSample sample;
-  bool to_base = true,
-       back = scatter_path(world, &reflected.path, at, &eye->band, LOBE_REFLECTION, eye->numbers, &sample);
-  if (back) {
-    reflected.share *= sample.reflectance;
-    reflected.surfaces = n + 1;
+  if (n >= world->scene.max_surfaces ||
+      !scatter_path(world, &reflected.path, at, &eye->band, LOBE_REFLECTION, eye->numbers, &sample))
+    return;
+  reflected.share *= sample.reflectance;
+  reflected.surfaces = n + 1;
 #ifdef NEPHROID_HIGHLIGHTS
-    reflected.by_microfacets = is_rough(&at->material);
+  reflected.by_microfacets = is_rough(&at->material);
 #endif
-    branch->share *= part_to_base(world, &at->surface, path->direction);
-    choose_branches(eye, &reflected, &to_base, &back);
-    if (to_base && back) eye->pending[eye->waiting++] = reflected;
-    if (!to_base) eye->lobes = LOBE_REFLECTION;
-  }
+  bool to_base, back;
+  choose_branches(eye, &reflected, n, &to_base, &back);
+  if (to_base && back) eye->pending[eye->waiting++] = reflected;
+  if (!to_base) eye->lobes = LOBE_REFLECTION;
 }
 
 static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, const Interaction* at,
@@ -169,7 +172,7 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
   reflected->share *= sample->reflectance;
   branch->share *= 1.0f - sample->reflectance;
   bool goes_through, goes_back;
-  choose_branches(eye, reflected, &goes_through, &goes_back);
+  choose_branches(eye, reflected, n, &goes_through, &goes_back);
   ScatterSample back;
   goes_back = goes_back &&
               scatter_path(world, &reflected->path, at, &eye->band, LOBE_REFLECTION, eye->numbers, &back);

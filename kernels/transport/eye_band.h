@@ -12,11 +12,15 @@
 #endif
 
 // How many parts there are for a pixel's path `number` in a half of the film: a power of two, the square root of a
-// quarter of the number.
+// quarter of the number; many where ends are not swept, or do not tell what a coating left of other wavelengths.
 static inline uint parts_of_spectrum(uint number) {
-  return !NEPHROID_JITTER  ? 1u
-         : NEPHROID_COATED ? 256u
-                           : 1u << (31u - clz(max(number / 4u, 1u))) / 2u;
+#if !NEPHROID_JITTER
+  return 1u;
+#elif NEPHROID_COATED || !NEPHROID_DIFFERENTIALS
+  return 256u;
+#else
+  return 1u << (31u - clz(max(number / 4u, 1u))) / 2u;
+#endif
 }
 
 // A place in the spectrum (member_at) for path `path` of `paths` in a frame. One path after the other takes each of the

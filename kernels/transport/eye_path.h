@@ -6,7 +6,8 @@
 #include "kernels/scatter/scatter.h"
 #include "kernels/tracing/low_discrepancy.h"
 
-// A path through glass is noisy: a pixel that sees glass or a mirror takes this many paths a sample.
+// Where chance chooses what a path meets, it is noisy: a sample that meets glass or a mirror first has so many paths.
+// In the layers `direct` and `background`, whose paths divide, only one that meets a rough surface has.
 #define PATHS_THROUGH_GLASS 4u
 
 // Four numbers for sample `sample` of a pixel. They come from a sequence as in light_numbers, with `paths` samples a
@@ -56,4 +57,3 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
   const DeviceMaterial material = material_of_hit(world, first);
   return is_matt(&material) && is_in_air(&camera->inside);
 }
-

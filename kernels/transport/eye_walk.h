@@ -15,7 +15,6 @@ typedef struct {
   bool drops_one_way;                // it ends where that surface leaves it no choice
   float share;                       // of the radiance at that surface, in those lobes
   float radiance_scale;              // beyond: of the radiance at its end, because it keeps radiance over n^2
-  ScatterSample first;               // what happened at that surface
   SET_ASIDE float4 u;
 } Visitor;
 
@@ -61,7 +60,6 @@ static inline bool visit_scatter(const World* world, Visitor* eye, const Path* p
                                  const ScatterSample* sample, int n) {
   const float n_ratio = sample->n_ratio;
   if (n < 0) {
-    eye->first = *sample;
     eye->share = (sample->transmitted ? 1.0f - sample->reflectance : sample->reflectance) * n_ratio * n_ratio;
     return !(eye->drops_one_way && leaves_one_way(sample));
   }

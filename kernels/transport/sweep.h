@@ -12,7 +12,7 @@ static inline float beyond_leader(const World* world, const Band* band, int wave
   return world->stretch_place[wavelength].x - world->stretch_place[band->own.wavelengths.x].x;
 }
 
-// Whether a path's end is swept over its part of the spectrum.
+// Whether a path's end is swept over its part of the spectrum: light of other wavelengths ends elsewhere.
 static inline bool is_swept(const World* world, const Path* path, const Band* band) {
 #if NEPHROID_DIFFERENTIALS && NEPHROID_JITTER
   if (band->size == 0.0f || is_unsplit(&path->throughput, band)) return false;
@@ -20,13 +20,14 @@ static inline bool is_swept(const World* world, const Path* path, const Band* ba
   const float farthest =
       fmax(fabs(beyond_leader(world, band, w.y)),
            fmax(fabs(beyond_leader(world, band, w.z)), fabs(beyond_leader(world, band, w.w))));
-  return farthest * length(path->differential.direction) <= EYE_SWEEP_WIDEST;
+  const float turn = farthest * length(path->differential.direction);
+  return turn <= EYE_SWEEP_WIDEST && turn + farthest * length(path->differential.position) > 0.0f;
 #else
   return false;
 #endif
 }
 
-// The quarter of a band that its wavelength number i stands for.
+// The quarter of a band that its wavelength number i stands for: its part of the spectrum, and that one's weight.
 static inline Band quarter_of_band(const Band* band, int i) {
   Band quarter = *band;
   quarter.size *= 0.25f;

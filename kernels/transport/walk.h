@@ -53,7 +53,7 @@ IN_PLACE int walk(const World* world, Visitor* visitor, Path* path, Hit* hit, bo
       return WALK_AT_BASE;
 #endif
     }
-    if (lobes == 0u || n == world->scene.max_surfaces) return WALK_LOST;
+    if (lobes == 0u || n >= world->scene.max_surfaces) return WALK_LOST;
     if (lobes == LOBE_DIFFUSE) continue;
     ScatterSample sample;
     if (!scatter_path(world, path, at, &band, lobes, numbers, &sample)) return WALK_LOST;

@@ -176,6 +176,16 @@ TEST_P(Lamps, ASphereIsAPoint) {
   EXPECT_LT(r.worst, worst_of(GetParam()) + 0.1); // some 5 % of noise in direct light
 }
 
+// What shines sends its light from its surface, whatever that is of.
+TEST(MeshLight, OfGlassShinesAsABlackOneDoes) {
+  preset::Preset p = floor_below_mesh(object("", check::ball(0.2), "", at({0.1, 0.9, -0.1})), By::direct);
+  p.stop.passes = 1024;
+  const std::vector<double> black = rendered(p);
+  p.scene.materials["glass"] = glass(1.5);
+  p.scene.objects.back().material = "glass";
+  expect_truth("mesh light: a ball of glass over a black one", ratio_of(rendered(p), black).mean, 1, 0.01);
+}
+
 // A rectangle of which the lower half of its picture is black is an area light of its upper half.
 TEST_P(Lamps, APictureShinesWhereItIsBright) {
   const TemporaryFolder folder;

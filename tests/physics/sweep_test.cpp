@@ -51,7 +51,7 @@ TEST(Sweep, ShowsEachLineOfALampWhereItGoes) {
   const std::vector<double> lines{460, 540, 620};
   preset::Light& lamp = p.scene.lights[0];
   for (const double nm : lines) lamp.spectrum.table.push_back({nm, 1});
-  p.stop.passes = 32; // in which every path has the whole spectrum, or a half of it
+  p.stop.passes = 32; // in which every path has the whole spectrum
   const Rgb together = direct_light(p);
   Rgb apart(together.size());
   lamp.irradiance_w_m2 /= static_cast<double>(lines.size());
