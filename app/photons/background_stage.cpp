@@ -12,7 +12,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
 #include <numeric>
 #include <vector>
 

@@ -110,7 +110,7 @@ __kernel void direct(WORLD_ARGUMENTS,
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
-  const DeviceMaterial met = material_of_hit(&world, &hit);
+  const DeviceMaterial met = interaction_at(&world, hit).material;
   const uint straight = unbent ? 1u : 0u, bent = unbent && !has_coat(&met) ? 0u : paths_through(&met);
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;

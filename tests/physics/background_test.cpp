@@ -167,7 +167,7 @@ TEST_P(BackgroundFurnace, GlassCannotBeSeen) {
     const double truth = p.scene.environment->colour[c];
     const double slack = 2e-6 + GetParam().lost + (GetParam().disperses ? tolerance(estimates[c]) / truth : 0);
     expect_truth(name + ": channel " + std::to_string(c), estimates[c].mean / truth, 1, slack);
-    EXPECT_LT(slack, 0.05);
+    EXPECT_LT(slack, 0.1); // passes have other parts of the spectrum, so they differ by more than their mean is off
   }
 }
 

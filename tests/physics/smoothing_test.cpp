@@ -160,9 +160,10 @@ TEST(ThroughGlass, RunsGoOnConverging) {
   for (const char* name : {"direct", "background"}) {
     const Errors before = errors_of(layer(few, name).rgb, layer(truth, name).rgb, glass),
                  after = errors_of(layer(many, name).rgb, layer(truth, name).rgb, glass);
-    // 16 times as many samples: a sixteenth of the variance, and a half more for few pixels with many of it.
+    // 16 times as many samples: a sixteenth of the variance, and as much for few pixels with many of it, and for paths
+    // that have a quarter of the spectrum where the first ones have all of it.
     EXPECT_GT(before.glass, 0) << name;
-    EXPECT_LT(after.glass, 1.5 / 16 * before.glass) << name;
+    EXPECT_LT(after.glass, 2.0 / 16 * before.glass) << name;
     EXPECT_EQ(after.elsewhere, before.elsewhere) << name;
   }
   // The run's own estimate knows: the squares of its draw are those of the error.

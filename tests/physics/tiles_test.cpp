@@ -239,9 +239,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Tiles, AreAsBrightInOneImageAsInTwoHalves) {
   preset::Preset p = by_tiles(on_a_floor());
-  const double halves = light_of(render(p));
+  const double halves = light_of(seen_directly(p));
   p.measure.estimate = false;
-  EXPECT_NEAR(light_of(render(p)) / halves, 1, 0.01);
+  EXPECT_NEAR(light_of(seen_directly(p)) / halves, 1, 0.01);
 }
 
 // The estimate of a run's error has what both halves of the film do wrong alike.

@@ -210,8 +210,7 @@ TEST(AutomaticEstimator, IsTilesWhereTheyGain) {
   EXPECT_THAT(why([](auto& p) { p.scene.objects[0].normals = preset::Object::Normals::smooth; }), HasSubstr("tiles"));
   EXPECT_THAT(why([](auto& p) { p.scene.objects[0].shape->type = preset::Shape::Type::brilliant; }),
               HasSubstr("glass has 110 triangles"));
-  EXPECT_THAT(why([](auto& p) { p.scene.camera.target = p.scene.objects[0].transform.translate; }),
-              HasSubstr("the camera sees glass"));
+  EXPECT_EQ(why([](auto& p) { p.scene.camera.target = p.scene.objects[0].transform.translate; }), "tiles");
   EXPECT_THAT(why([](auto& p) {
                 p.scene.objects.push_back(p.scene.objects[0]);
                 p.scene.objects.back().name = "inside";
