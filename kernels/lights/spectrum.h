@@ -34,15 +34,13 @@ static inline float4 carried_row(const World* world, const Throughput* throughpu
                ? coloured_light(tables, &throughput->all, all, light, &band->all, reflector)
                : throughput->all.middle * all;
   }
-#if NEPHROID_JITTER
-  if (band->size > 0.0f) {
+  if (NEPHROID_JITTER && band->size > 0.0f) {
     const Member first = member_at(world, band->low), last = member_at(world, band->low + band->size);
     const float4 all = (float4)(light_before(world, light, reflector, last.number, last.part) -
                                 light_before(world, light, reflector, first.number, first.part), 0.0f);
     return are_coloured(&throughput->own) ? coloured_light(tables, &throughput->own, all, light, &band->own, reflector)
                                           : throughput->own.middle * all;
   }
-#endif
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0)
     return part_left(throughput) * band->weight *

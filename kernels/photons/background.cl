@@ -126,9 +126,9 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
     xyz = background_xyz(&background, background_rgb(&background, direction), 0, WAVELENGTH_COUNT);
   } else {
-    const DeviceMaterial met = interaction_at(&world, hit).material;
+    const DeviceMaterial met = material_of_hit(&world, &hit);
     if (is_only_matt(&met)) return;
-    const uint paths = paths_through(&met);
+    const uint paths = paths_through(&world, hit);
     for (uint i = 0; i < paths; ++i) {
       uint parts;
       const float place =

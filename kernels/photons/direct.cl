@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, which each light
 // reaches unbent. Glass and mirrors block those shadow rays: light that passes them belongs to the caustic layer.
-#define NEPHROID_HIGHLIGHTS
+#define NEPHROID_HIGHLIGHTS 1
 #include "kernels/photons/launch_types.h"
 #include "kernels/transport/branches.h"
 #include "kernels/transport/eye_band.h"
@@ -19,8 +19,7 @@ static inline float3 emitted(const World* world, int light_index, const Path* pa
 
 // The XYZ radiance that a diffuse surface sends back along the path. shines: with its own where it is a lamp.
 IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, bool shines,
-                      Reflector reflector, const Band* band, uint2 seed, uint sample, uint paths,
-                      uint pixel) {
+                      Reflector reflector, const Band* band, uint2 seed, uint sample, uint paths, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (is_of_environment(world, l)) {
@@ -110,8 +109,8 @@ __kernel void direct(WORLD_ARGUMENTS,
 
   // One call of follow() for both cases: Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
-  const DeviceMaterial met = interaction_at(&world, hit).material;
-  const uint straight = unbent ? 1u : 0u, bent = unbent && !has_coat(&met) ? 0u : paths_through(&met);
+  const DeviceMaterial met = material_of_hit(&world, &hit);
+  const uint straight = unbent ? 1u : 0u, bent = unbent && !has_coat(&met) ? 0u : paths_through(&world, hit);
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;
   SET_ASIDE Hit first = hit;
   for (uint i = 0; i < straight + bent; ++i) {

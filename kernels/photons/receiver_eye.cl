@@ -107,7 +107,11 @@ static inline float3 light_of_end(const World* world, const Receivers* on, __glo
     const Reflector reflector = reflector_of_row(material_of(world, end->surface.object).reflector);
     return transmittance(world, throughput, band, reflector) * light;
   }
-#if NEPHROID_JITTER
+  if (!NEPHROID_JITTER) { // no glass disperses
+    const int layer = layer_of(on, band->cluster, clusters);
+    const float2 places = places_of_layer(world, on, layer);
+    return part_left(throughput) / (places.y - places.x) * look_at_layer(on, path, end, &end->surface, first, layer);
+  }
   const bool unsplit = is_unsplit(throughput, band), swept = is_swept(world, path, band);
   const Parts* parts = unsplit ? &throughput->all : &throughput->own;
   Band shown = *band;
@@ -146,12 +150,6 @@ static inline float3 light_of_end(const World* world, const Receivers* on, __glo
            look_at_layer(on, path, end, &surface, first, layer);
   }
   return xyz;
-#else // no glass disperses
-  const int layer = layer_of(on, band->cluster, clusters);
-  const float2 places = places_of_layer(world, on, layer);
-  return part_left(throughput) / (places.y - places.x) *
-         look_at_layer(on, path, end, &end->surface, first, layer);
-#endif
 }
 
 // totals: by receiver_light.cl.

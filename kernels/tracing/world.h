@@ -87,7 +87,6 @@ static inline int cluster_at(const World* world, float place, float* chance, flo
   return cluster;
 }
 
-#if NEPHROID_JITTER
 // A place in the spectrum of the eye, [0, 1]: by the chances of clusters, and in each of wavelengths, as any light may
 // reach the eye.
 typedef struct {
@@ -118,4 +117,3 @@ static inline DrawnWavelength wavelength_at(const World* world, float place, flo
   const DrawnWavelength drawn = {world->tables.cluster_wavelengths[member.number], size / member.chance};
   return drawn;
 }
-#endif

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A path from the eye that divides: at glass it goes both ways, and at a coat to the base and back, as long as each is
-// much of what its pixel shows. With NEPHROID_HIGHLIGHTS rough surfaces add the light of lamps on the way.
+// much of what its pixel shows.
 #include "kernels/transport/eye_path.h"
 #include "kernels/transport/scatter_path.h"
+
+// 1: rough surfaces add the light of lamps on the way.
+#ifndef NEPHROID_HIGHLIGHTS
+#define NEPHROID_HIGHLIGHTS 0
+#endif
 
 // The part of a path's radiance below which a branch is not followed beside another.
 #define LEAST_SHARE 0.02f
@@ -15,9 +20,7 @@ typedef struct {
   float share; // of the path's radiance by Fresnel's equations, over the chance that the branch is followed
   float scale; // beyond: of radiance, because what glass keeps is radiance over n^2
   int surfaces;
-#ifdef NEPHROID_HIGHLIGHTS
   bool by_microfacets; // a rough surface scattered it last: what it meets of a lamp is in `shine`
-#endif
 } EyeBranch;
 
 // How a branch and those that wait are followed: the visitor of a walk.
@@ -30,11 +33,10 @@ typedef struct {
   uint sample, paths, pixel, stream; // of eye_numbers
   uint number;                       // of random4: it is of no other path, however many those have
   uint met;                          // how many surfaces all branches have met
-  WalkNumbers numbers;             // of the surface
-  uint lobes;                      // that the branch may take there
-#ifdef NEPHROID_HIGHLIGHTS
+  WalkNumbers numbers;               // of the surface
+  uint lobes;                        // that the branch may take there
+  bool is_rough_there;
   float3 shine; // XYZ radiance of lamps that rough surfaces send back
-#endif
 } Visitor;
 
 static inline Band visitor_band(const Visitor* eye) { return eye->band; }
@@ -50,7 +52,10 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
 #include "kernels/transport/walk.h"
 
 // How many paths a sample has that meets this first: facets are left to chance.
-static inline uint paths_through(const DeviceMaterial* first) { return is_rough(first) ? PATHS_THROUGH_GLASS : 1u; }
+static inline uint paths_through(const World* world, Hit first) {
+  const Interaction at = interaction_at(world, first);
+  return is_rough(&at.material) ? PATHS_THROUGH_GLASS : 1u;
+}
 
 // Begins path `i` of the `paths` of a frame.
 static inline void begin_branches(Visitor* eye, const Path* path, const Band* band, uint2 seed, uint frame, uint i,
@@ -66,10 +71,8 @@ static inline void begin_branches(Visitor* eye, const Path* path, const Band* ba
   eye->pixel = pixel;
   eye->stream = stream;
   eye->met = 0u;
-#ifdef NEPHROID_HIGHLIGHTS
   eye->branch.by_microfacets = false;
   eye->shine = (float3)(0.0f);
-#endif
 }
 
 // Follows the branch to its end. first: what the path meets first. Returns WALK_*; *last: its last surface's number.
@@ -96,7 +99,6 @@ static inline void choose_branches(Visitor* eye, EyeBranch* other, int n, bool* 
   eye->branch.share = other->share = both;
 }
 
-#ifdef NEPHROID_HIGHLIGHTS
 // The XYZ radiance of a lamp that a rough surface sends to the path which arrives there: reflected, or through the
 // surface from beyond.
 static inline float3 highlight(const World* world, int light_index, bool beyond, const Path* path,
@@ -127,7 +129,6 @@ static inline float3 highlights(const World* world, const Visitor* eye, const Pa
         xyz += highlight(world, l, beyond, path, at, &eye->band, eye->seed, eye->sample, eye->paths, numbers);
   return xyz;
 }
-#endif
 
 static inline void visit_surface(const World* world, Visitor* eye, const Path* path, const Interaction* at, int n) {
   eye->lobes = LOBE_DIFFUSE | LOBE_TRANSMISSION;
@@ -136,9 +137,9 @@ static inline void visit_surface(const World* world, Visitor* eye, const Path* p
   ++eye->met;
   eye->numbers.u = 0.0f; // nothing is left to chance but microfacets
   eye->numbers.u_microfacet = microfacet_numbers(eye->seed, eye->number, eye->pixel, eye->met, eye->stream);
-#ifdef NEPHROID_HIGHLIGHTS
-  if (is_rough(&at->material)) eye->shine += branch->share * branch->scale * highlights(world, eye, path, at);
-#endif
+  eye->is_rough_there = is_rough(&at->material);
+  if (NEPHROID_HIGHLIGHTS && eye->is_rough_there)
+    eye->shine += branch->share * branch->scale * highlights(world, eye, path, at);
   *before = *branch;
   if (!has_coat(&at->material)) return;
   // The branch goes to the base, and another one back.
@@ -150,9 +151,7 @@ static inline void visit_surface(const World* world, Visitor* eye, const Path* p
     return;
   reflected.share *= sample.reflectance;
   reflected.surfaces = n + 1;
-#ifdef NEPHROID_HIGHLIGHTS
-  reflected.by_microfacets = is_rough(&at->material);
-#endif
+  reflected.by_microfacets = eye->is_rough_there;
   bool to_base, back;
   choose_branches(eye, &reflected, n, &to_base, &back);
   if (to_base && back) eye->pending[eye->waiting++] = reflected;
@@ -163,10 +162,8 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
                                  const ScatterSample* sample, int n) {
   EyeBranch *branch = &eye->branch, *reflected = &eye->before;
   branch->surfaces = reflected->surfaces = n + 1;
-#ifdef NEPHROID_HIGHLIGHTS
-  reflected->by_microfacets = is_rough(&at->material);
-  branch->by_microfacets = is_rough(&at->material) && !sample->straight;
-#endif
+  reflected->by_microfacets = eye->is_rough_there;
+  branch->by_microfacets = eye->is_rough_there && !sample->straight;
   branch->scale *= sample->n_ratio * sample->n_ratio;
   if (!sample->transmitted || sample->reflectance == 0.0f) return true;
   reflected->share *= sample->reflectance;

@@ -14,13 +14,9 @@
 // How many parts there are for a pixel's path `number` in a half of the film: a power of two, the square root of a
 // quarter of the number; many where ends are not swept, or do not tell what a coating left of other wavelengths.
 static inline uint parts_of_spectrum(uint number) {
-#if !NEPHROID_JITTER
-  return 1u;
-#elif NEPHROID_COATED || !NEPHROID_DIFFERENTIALS
-  return 256u;
-#else
-  return 1u << (31u - clz(max(number / 4u, 1u))) / 2u;
-#endif
+  if (!NEPHROID_JITTER) return 1u;
+  if (NEPHROID_COATED) return 256u;
+  return NEPHROID_DIFFERENTIALS ? 1u << (31u - clz(max(number / 4u, 1u))) / 2u : 256u;
 }
 
 // A place in the spectrum (member_at) for path `path` of `paths` in a frame. One path after the other takes each of the
@@ -39,29 +35,26 @@ static inline float place_in_spectrum(uint2 seed, uint frame, uint path, uint pa
 // The band of a path from the eye, which stands for one of `parts` equal parts of the spectrum. place: in [0, 1).
 // *chance: the part's; or without NEPHROID_JITTER, where it is a cluster, that one's.
 static inline Band choose_eye_band(const World* world, float place, uint parts, float* chance) {
-#if NEPHROID_JITTER
+  if (!NEPHROID_JITTER) {
+    float within;
+    const int cluster = cluster_at(world, place, chance, &within);
+    return choose_band(world, world->scene.light_count, cluster, within);
+  }
   const float size = 1.0f / (float)parts, low = floor(place * (float)parts) * size, within = (place - low) / size;
   const Member leader = member_at(world, place);
   Band band = one_wavelength(leader.cluster, world->tables.cluster_wavelengths[leader.number], size / leader.chance);
-#if NEPHROID_LOSSES || NEPHROID_DIFFERENTIALS
   DrawnWavelength drawn[4];
   for (int i = 0; i < 4; ++i) drawn[i] = wavelength_at(world, low + size * quarters_on(within, i), size);
   band.own = carriers_of(drawn[0], drawn[1], drawn[2], drawn[3],
                          wavelength_at(world, low + 0.5f * size, size).wavelength);
-#endif
-#if NEPHROID_LOSSES && NEPHROID_UNSPLIT
-  for (int i = 0; i < 4; ++i) drawn[i] = wavelength_at(world, quarters_on(place, i), size);
-  band.all = carriers_of(drawn[0], drawn[1], drawn[2], drawn[3], WAVELENGTH_COUNT / 2);
-#endif
+  if (NEPHROID_LOSSES) {
+    for (int i = 0; i < 4; ++i) drawn[i] = wavelength_at(world, quarters_on(place, i), size);
+    band.all = carriers_of(drawn[0], drawn[1], drawn[2], drawn[3], WAVELENGTH_COUNT / 2);
+  }
   band.low = low;
   band.within = within;
   band.size = band.chance = *chance = size;
   return band;
-#else
-  float within;
-  const int cluster = cluster_at(world, place, chance, &within);
-  return choose_band(world, world->scene.light_count, cluster, within);
-#endif
 }
 
 // The band of path `path` of `paths` in a frame.

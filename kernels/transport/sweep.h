@@ -14,17 +14,13 @@ static inline float beyond_leader(const World* world, const Band* band, int wave
 
 // Whether a path's end is swept over its part of the spectrum: light of other wavelengths ends elsewhere.
 static inline bool is_swept(const World* world, const Path* path, const Band* band) {
-#if NEPHROID_DIFFERENTIALS && NEPHROID_JITTER
-  if (band->size == 0.0f || is_unsplit(&path->throughput, band)) return false;
+  if (!NEPHROID_DIFFERENTIALS || band->size == 0.0f || is_unsplit(&path->throughput, band)) return false;
   const int4 w = band->own.wavelengths;
   const float farthest =
       fmax(fabs(beyond_leader(world, band, w.y)),
            fmax(fabs(beyond_leader(world, band, w.z)), fabs(beyond_leader(world, band, w.w))));
   const float turn = farthest * length(path->differential.direction);
   return turn <= EYE_SWEEP_WIDEST && turn + farthest * length(path->differential.position) > 0.0f;
-#else
-  return false;
-#endif
 }
 
 // The quarter of a band that its wavelength number i stands for: its part of the spectrum, and that one's weight.
@@ -39,7 +35,6 @@ static inline Band quarter_of_band(const Band* band, int i) {
 // Moves *surface, where a path ends, to where light does whose s is larger by x. Where that is no diffuse surface, it
 // stays.
 static inline void move_end(const World* world, const Path* path, float x, Surface* surface, uint* triangle) {
-#if NEPHROID_DIFFERENTIALS && NEPHROID_JITTER
   if (x == 0.0f) return;
   const float3 origin = path->origin + x * path->differential.position,
                direction = normalize(path->direction + x * path->differential.direction);
@@ -51,5 +46,4 @@ static inline void move_end(const World* world, const Path* path, float x, Surfa
   if (there.object != surface->object && !is_only_matt(&material)) return;
   *surface = there;
   *triangle = hit.primitive;
-#endif
 }

@@ -62,9 +62,9 @@ TEST(Sweep, ShowsEachLineOfALampWhereItGoes) {
   }
   // Noise is .075 to .085. Where all stay with the leader it is .17, and .26 where they go the other way.
   EXPECT_LT(size(sum(together, apart, -1)), 0.11 * size(apart));
-  const double all = std::accumulate(together.begin(), together.end(), 0.0),
-               all_apart = std::accumulate(apart.begin(), apart.end(), 0.0);
-  EXPECT_NEAR(all, all_apart, 0.015 * all_apart); // .005 was seen
+  const double light = std::accumulate(together.begin(), together.end(), 0.0),
+               light_apart = std::accumulate(apart.begin(), apart.end(), 0.0);
+  EXPECT_NEAR(light, light_apart, 0.015 * light_apart); // .005 was seen
 }
 
 } // namespace nephroid::sweep_test

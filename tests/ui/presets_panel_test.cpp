@@ -180,9 +180,9 @@ TEST(RecentFilesTest, KeepsThirtyTheNewestFirstAndEachOnce) {
   const test::TemporaryFolder folder;
   const fs::path list = folder.path() / "deep" / "recent.json";
   RecentFiles files(list, {});
-  for (int i = 0; i < 40; ++i) files.add("/presets/" + std::to_string(i % 35) + ".json", i);
+  for (int i = 0; i < 40; ++i) files.add("/recent/" + std::to_string(i % 35) + ".json", i);
   EXPECT_THAT(files.all(), SizeIs(30));
-  EXPECT_EQ(files.all()[0], (RecentFile{"/presets/4.json", 39}));
+  EXPECT_EQ(files.all()[0], (RecentFile{"/recent/4.json", 39}));
   files.writer()();
   const RecentFiles again(list, {});
   EXPECT_EQ(again.all(), files.all());
