@@ -101,9 +101,7 @@ std::vector<plan::Decision> photon_decisions(const Settings& s, const photons::R
   if (!s.cast) return {{"photons", false, "environment.cast is false"}};
   const plan::Decision sent = row("photons");
   if (!sent.runs) return {{"photons", false, sent.reason}};
-  // What tiles leave for glass and mirrors is kept on receivers, what points leave is in maps.
-  const plan::Decision kept =
-      row(photons->settings.estimator == photons::Settings::Estimator::tiles ? "light on receivers" : "photon maps");
+  const plan::Decision kept = row("light on receivers");
   return {{"photons", true, sent.reason + ", in the place of the spheres as soon as they have a whole picture", field,
            true},
           {kept.name, kept.runs, kept.reason}};

@@ -89,7 +89,7 @@ public:
   }
 
 private:
-  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
+  void run(std::uint32_t count, bool, std::initializer_list<compute::Argument> more) override {
     world_.run(kernel_, count, 64,
                {{"texels", texels_},
                 {"primary_before", primary_before_},

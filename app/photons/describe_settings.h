@@ -15,12 +15,11 @@ inline constexpr Choice<photons::Settings::Method> choices<photons::Settings::Me
 template <>
 inline constexpr Choice<photons::Settings::Estimator> choices<photons::Settings::Estimator>[] = {
     {photons::Settings::Estimator::automatic, "automatic",
-     "As tiles where small lamps shine on smooth or flat glass that the camera does not see, as points elsewhere; the "
-     "plan says why."},
+     "As tiles where small lamps shine on smooth or flat glass, as points elsewhere; the plan says why."},
     {photons::Settings::Estimator::points, "points",
-     "Photons are splatted as points where the camera sees the receiver directly; photon maps elsewhere."},
+     "Photons are splatted as points; receivers keep their light for what glass and mirrors show."},
     {photons::Settings::Estimator::splat, "splat",
-     "As points, without maps: what is seen through glass or in a mirror has no caustics."},
+     "As points, but what is seen through glass or in a mirror has no caustics."},
     {photons::Settings::Estimator::tiles, "tiles",
      "As points, with photons on lattices, each the piece of light that it stands for."},
     {photons::Settings::Estimator::sppm, "sppm",
@@ -82,7 +81,7 @@ inline void describe(preset::Fields& v, Settings& s) {
   v.field("importance", "How much a wavelength matters, where `effort` asks for it.", s.importance);
   v.field("jitter",
           "Each path takes one wavelength of its cluster, so that clusters leave no bias, and splats are stretched "
-          "along the wavelength; with photon maps the paths of a pass share few.",
+          "along the wavelength.",
           s.jitter);
   v.field("low_discrepancy", "Photons leave the lights by a scrambled Sobol sequence.", s.low_discrepancy);
   v.field("smoothing",

@@ -100,11 +100,16 @@ void Development::share_work() {
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
+  // What glass shows of caustics is found by samples of the direct layer: they share its noise.
+  for (std::size_t s = 0; s < draws.size() && world_.caustics_seen; ++s)
+    if (passes_.stages()[s].layer == std::string_view("direct"))
+      for (std::size_t i = 0; i < draws[s].size(); ++i)
+        if (world_.pixels.may_show_glass[i / 3]) draws[s][i] = std::hypot(draws[s][i], splatted.draw[i]);
   const auto noise_of = [&](const std::vector<float>& draw) {
     const Noise noise{draw, picture.rgb};
-    double sum = 0; // without what glass shows, which are paths, too; but beside tiles photons are stored for it only
+    double sum = 0; // without what glass shows, which are paths, too
     for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-      if (!smooths_splats_ || !world_.pixels.may_show_glass[i / 3]) sum += noise.of(i);
+      if (!world_.pixels.may_show_glass[i / 3]) sum += noise.of(i);
     return sum;
   };
   const double noise = noise_of(splatted.draw), smoothed = noise > 0 ? noise / noise_of(plain) : 1;

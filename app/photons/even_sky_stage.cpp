@@ -20,7 +20,7 @@ public:
         kernel_(compute::Program(world.context, "photons/even_sky.cl", world.eye_defines()).kernel("even_sky")) {}
 
 private:
-  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override {
+  void run(std::uint32_t count, bool, std::initializer_list<compute::Argument> more) override {
     world_.run(kernel_, count, 64, {{"light_index", light_}}, more);
   }
 

@@ -25,9 +25,9 @@ public:
   /// least_enough of such samples.
   EyeStage(StageContext& world, const char* name, const char* layer, const Settings& settings, double paths = 1,
            int least_enough = 0)
-      : world_(world), name_(name), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
-        film_(world.zeroed(std::string("film ") + name, world.film_size())), preview_film_(world.preview_film()),
-        pixels_(world, std::max(*settings.pixel_samples, least_enough), paths) {}
+      : world_(world), film_(world.zeroed(std::string("film ") + name, world.film_size())),
+        preview_film_(world.preview_film()), pixels_(world, std::max(*settings.pixel_samples, least_enough), paths),
+        name_(name), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)) {}
 
   const char* name() const override { return name_; }
   std::int64_t passes() const override { return pixels_.passes(); }
@@ -38,7 +38,7 @@ public:
 
   bool advance(std::int64_t pass) override {
     return pixels_.advance(pass, [&](const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
-      run(film_, world_.tables.camera, samples, count);
+      run(film_, false, world_.tables.camera, samples, count);
     });
   }
 
@@ -55,7 +55,7 @@ public:
     for (std::uint32_t block = 0; block < static_cast<std::uint32_t>(camera.width * camera.height); ++block)
       for (std::uint32_t half = 0; half < 2; ++half) samples.push_back({block, half});
     world_.context.communicator().keep_own_share(samples);
-    run(preview_film_, camera, compute::Buffer(world_.context, "samples", samples),
+    run(preview_film_, true, camera, compute::Buffer(world_.context, "samples", samples),
         static_cast<std::uint32_t>(samples.size()));
     return true;
   }
@@ -73,8 +73,8 @@ public:
   }
 
 protected:
-  /// Runs the kernel with the stage's own arguments and `more`.
-  virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
+  /// Runs the kernel with the stage's own arguments and `more`. is_preview: the camera has a pixel for each block.
+  virtual void run(std::uint32_t count, bool is_preview, std::initializer_list<compute::Argument> more) = 0;
   /// Quanta of the film for a value of 1 on the device.
   virtual float film_scale() const { return world_.on_device(world_.tables.direct_scale); }
   /// The most quanta of each of a pixel's first pixel_samples contributions. All later ones cannot overflow the film.
@@ -83,20 +83,20 @@ protected:
   virtual double quanta_per_unit() const { return world_.tables.direct_scale * world_.white; }
 
   StageContext& world_;
+  compute::Buffer<std::int64_t> film_;
+  compute::Buffer<std::int64_t> preview_film_; ///< film with a pixel for each block of the preview
+  SampledPixels pixels_;
 
 private:
-  void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera,
+  void run(const compute::Buffer<std::int64_t>& film, bool is_preview, const shared::DeviceCamera& camera,
            const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
     const shared::DeviceSampleLaunch launch{world_.seed, count, enough_, film_scale(), static_cast<float>(limit())};
-    run(count,
+    run(count, is_preview,
         {{"film", film}, {"energy", world_.energy}, {"camera", camera}, {"samples", samples}, {"launch", launch}});
   }
 
   const char *name_, *layer_;
   std::uint32_t enough_; ///< Settings::pixel_samples
-  compute::Buffer<std::int64_t> film_;
-  compute::Buffer<std::int64_t> preview_film_; ///< film with a pixel for each block of the preview
-  SampledPixels pixels_;
 };
 
 } // namespace nephroid::photons

@@ -61,7 +61,6 @@ public:
     world_.pixels = make_pixel_lists(context, scene);
     world_.emitters = compute::Buffer(context, "emitters", plan.tables.emitters);
     if (plan.runs(receiver_stage)) world_.receivers.emplace(make_receiver_light(world_, scene));
-    if (plan.runs(map_stage)) world_.map.emplace(context, world_.tables.photons_per_pass(), world_.defines);
     for (const RunPart* part : plan.parts)
       if (part->make) passes_.add(part->make(world_, scene, plan.settings), part->layer);
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error))

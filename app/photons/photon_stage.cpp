@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons that are splatted into the pixel that sees them, and stored where there is a photon map:
+// Photons that are splatted into the pixel that sees them, and leave their light on receivers:
 // kernels/photons/photons.cl.
+#include "kernels/photons/photon_map_types.h"
 #include "photons/effort/emitters.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
@@ -26,15 +27,15 @@ std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t
 class PhotonStage final : public Stage {
 public:
   PhotonStage(StageContext& world, const scene::Scene&, const Settings& settings)
-      : world_(world), insists_(settings.effort == Settings::Effort::variance),
+      : world_(world), leaves_light_(world.receivers && settings.estimator != Settings::Estimator::splat),
+        insists_(settings.effort == Settings::Effort::variance),
         by_variance_(insists_ || settings.effort == Settings::Effort::automatic), allocation_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction",
                                     by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", guide_.table()),
-        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0) {
-    if (world.map) stored_ = world.map->stored();
+        film_(world.zeroed("film caustic", world.film_size())) {
     make_kernel();
   }
 
@@ -49,6 +50,7 @@ public:
     advance_to(pass, world_.tables.batches);
     if (batch_ < world_.tables.batches) return false;
     batch_ = 0;
+    if (StageContext::is_taken(pass)) take_light((pass + 1) * world_.tables.batches);
     return true;
   }
 
@@ -56,7 +58,9 @@ public:
 
   bool advance_preview() override {
     if (batch_ < world_.preview.batches) advance_to(0, world_.preview.batches);
-    return batch_ >= world_.preview.batches;
+    if (batch_ < world_.preview.batches) return false;
+    take_light(batch_);
+    return true;
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override {
@@ -86,7 +90,6 @@ private:
   void advance_to(std::int64_t pass, std::int64_t end) {
     const RunTables& t = world_.tables;
     const std::int64_t batch = pass * t.batches + batch_;
-    if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is stored by one rank
     if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches) && allocation_.is_due(batch))
       reallocate(batch);
     // A batch that may be reallocated, of a number that is a power of 2, begins a slice.
@@ -95,13 +98,11 @@ private:
     shared::DevicePhotonLaunch launch = world_.photon_launch();
     launch.first_iteration = static_cast<std::uint32_t>(allocation_.first_iteration());
     launch.photons_per_batch = t.photons_per_batch;
-    launch.map_pass = static_cast<std::uint32_t>(pass);
-    launch.stored_first = static_cast<std::uint32_t>(batch_) * t.photons_per_batch;
     launch.emitter_count = t.scene.emitter_count;
     launch.film_scale = world_.on_device(t.caustic_scale);
     launch.energy_scale = world_.on_device(t.energy_scale);
-    launch.stored_scale = world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w));
     launch.unseen_weight = unseen_weight();
+    if (leaves_light_) launch.stored_scale = world_.on_device(world_.receivers->quanta_per_watt());
     batch_ += slices_.advance(
         world_.context.communicator(), t.photons_per_batch,
         [&](const tracing::PhotonSlice& slice) {
@@ -112,9 +113,17 @@ private:
                        {"moments", moments_},
                        {"guide_moments", guide_moments_},
                        {"guide", guide_table_},
-                       {"stored", stored_}});
+                       {"stored", no_photons_},
+                       {"receiver_table", leaves_light_ ? world_.receivers->table() : no_table_},
+                       {"light", leaves_light_ ? world_.receivers->sums() : no_light_}});
         },
         most);
+  }
+
+  /// Shows what so many batches have left on receivers.
+  void take_light(std::int64_t batches) {
+    if (!leaves_light_) return;
+    world_.receivers->take_points(KindOfLight::caustic, world_.of_halves(batches));
   }
 
   std::int64_t batches(std::int64_t passes, bool done) const {
@@ -124,7 +133,7 @@ private:
   void make_kernel() {
     compute::Defines defines = world_.photon_defines();
     defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
-    defines["NEPHROID_STORE"] = std::to_string(int(stored_.size() > 0));
+    defines["NEPHROID_RECEIVERS"] = std::to_string(int(leaves_light_));
     kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
   }
 
@@ -151,8 +160,8 @@ private:
     guide_table_.write(guide_.table());
   }
 
-  /// The weight of a photon that only a map will show: a quarter of that of a splat on a surface as far away as the
-  /// scene's middle, to which RunTables::caustic_scale gives 2^16 quanta.
+  /// The weight of a photon that only glass or a mirror will show: a quarter of that of a splat on a surface as far
+  /// away as the scene's middle, to which RunTables::caustic_scale gives 2^16 quanta.
   float unseen_weight() const {
     const RunTables& t = world_.tables;
     return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_batch * std::numbers::pi /
@@ -160,15 +169,18 @@ private:
   }
 
   StageContext& world_;
-  bool insists_;     ///< whether the preset asks for allocation by variance
-  bool by_variance_; ///< whether photons are measured, and allocated and guided by that
+  bool leaves_light_; ///< on receivers
+  bool insists_;      ///< whether the preset asks for allocation by variance
+  bool by_variance_;  ///< whether photons are measured, and allocated and guided by that
   NeymanAllocation allocation_;
   EmissionGuide guide_;
   compute::Buffer<std::int64_t> moments_;       ///< [emitter], see NeymanAllocation::reallocate
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
   compute::Buffer<std::int64_t> film_;
-  compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
+  compute::Buffer<shared::StoredPhoton> no_photons_{world_.context, "no photons", 0};
+  compute::Buffer<int> no_table_{world_.context, "no receivers", 0};
+  compute::Buffer<std::int64_t> no_light_{world_.context, "no receivers", 0};
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
   std::int64_t batch_ = 0; ///< number of the batch in the current pass

@@ -38,6 +38,10 @@ PlanPart plan_scene(const PlanInput& input) {
     part.notes = {
         fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",
                     s.step_nm, preset::word(s.method))};
+  if (const Settings& s = input.settings; s.sppm.radius && !input.is_sppm())
+    part.notes.push_back(fmt::format(
+        "spectral.sppm.radius: {} does nothing here: spectral.estimator is {}, and only sppm gathers within a radius",
+        *s.sppm.radius, preset::word(s.estimator)));
   return part;
 }
 
@@ -160,9 +164,7 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
                                     &caustics_part,
                                     &smoothing_part,
                                     &omissions_part,
-                                    sppm    ? &sppm_stage
-                                    : tiles ? &receiver_stage
-                                            : &map_stage,
+                                    &receiver_stage,
                                     &even_sky_stage,
                                     &indirect_stage,
                                     &indirect_photon_stage,
@@ -170,6 +172,7 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
                                     &estimate_part,
                                     &environment_light_part,
                                     &relighting_part};
+  if (sppm) parts.insert(std::ranges::find(parts, &receiver_stage), &sppm_stage);
   return parts;
 }
 
@@ -236,6 +239,10 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
     }
     add(std::move(planned), plan);
   }
+  // What photons leave on receivers is seen by stages that come after them.
+  std::ranges::stable_partition(plan.parts, [](const RunPart* part) {
+    return part == &photon_stage || part == &tile_stage || part == &indirect_photon_stage;
+  });
   plan.layers = static_cast<int>(layers.size());
   plan.estimates_error = input.estimate.runs;
   plan.mixes_frames = plan.estimates_error && scene.camera.receiver < 0;

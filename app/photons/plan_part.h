@@ -68,10 +68,10 @@ struct RunPart {
 };
 
 /// The stages, each in its file NAME_stage.cpp.
-extern const RunPart direct_stage, photon_stage, map_stage, even_sky_stage, sppm_stage, indirect_stage,
-    indirect_photon_stage, background_stage;
-/// The stages in the place of photon_stage where photons are tiles.
-extern const RunPart tile_stage, receiver_stage;
+extern const RunPart direct_stage, photon_stage, receiver_stage, even_sky_stage, indirect_stage, indirect_photon_stage,
+    background_stage;
+/// The stages in the place of photon_stage where photons are tiles, and where all are gathered.
+extern const RunPart tile_stage, sppm_stage;
 /// The stages in their place where layers are kept for another light.
 extern const RunPart layered_direct_stage, layered_photon_stage;
 extern const RunPart relighting_part; ///< relight/layer_film.cpp: what these two share
@@ -89,8 +89,6 @@ std::string no_light(const PlanInput& input);
 /// The text "one colour all around", or the number of texels.
 std::string size_of(const scene::Environment& environment);
 
-/// Decides whether caustics seen through glass and in mirrors are gathered.
-plan::Decision map_decision(const PlanInput& input);
 /// Decides whether there is light that met several diffuse surfaces.
 plan::Decision indirect_decision(const PlanInput& input);
 /// Decides PlanInput::caustics from the other members of input.

@@ -138,34 +138,38 @@ void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std
 /// The halves m + d and m - d of the film, each spread by its own kernels, change by r_a and r_b. One half's noise is
 /// not in the other, so E[r_a d] and -E[r_b d] estimate E[r noise], with twice the noise of m: q = (r_a - r_b) / 2
 /// gives E[r noise] = E[q d]. This includes that kernels follow the noise. Means are taken around the pixel, over R, G
-/// and B. The square of an error is divided by the light there, so that every photon counts alike.
+/// and B. The square of an error is divided by the light there, so that every photon counts alike; but a pixel that
+/// changes by more than that light counts no more than one that changes by it, or a bright spot would decide for a
+/// whole square about it.
 std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const float> error_draw,
                                      std::span<const float> rgb_spread, std::span<const float> a_spread,
                                      std::span<const float> b_spread, std::span<const double> light, int width,
                                      int height) {
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
-  const auto relative_to_light = [&](std::size_t i, const auto& term) {
-    double sum = 0;
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c);
-    return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius));
-  };
-  const SummedArea change(width, height, [&](std::size_t i) {
-    return relative_to_light(i,
-                             [&](std::size_t c) { return std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2); });
-  });
-  const SummedArea gain(width, height, [&](std::size_t i) {
-    return relative_to_light(i, [&](std::size_t c) {
+  std::vector<double> changes(light.size()), gains(light.size());
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
       const double d = error_draw[c], q = (static_cast<double>(a_spread[c]) - b_spread[c]) / 2 - d;
-      return -q * d;
-    });
-  });
-  std::vector<float> share(light.size());
-  for (std::size_t i = 0; i < share.size(); ++i) {
+      changes[i] += std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2);
+      gains[i] -= q * d;
+    }
+    const double near = dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius),
+                 weight = 1 / std::max(near, changes[i] / near);
+    changes[i] *= weight;
+    gains[i] *= weight;
+  }
+  const SummedArea change(width, height, [&](std::size_t i) { return changes[i]; });
+  const SummedArea gain(width, height, [&](std::size_t i) { return gains[i]; });
+  const SummedArea worth(width, height, [&](std::size_t i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
     const double changed = change.sum(x, y, bias_radius);
-    share[i] = changed > 0 ? static_cast<float>(std::clamp(gain.sum(x, y, bias_radius) / changed, 0.0, 1.0)) : 0;
-  }
+    return changed > 0 ? std::clamp(gain.sum(x, y, bias_radius) / changed, 0.0, 1.0) : 0;
+  });
+  // A share that jumped would be seen as a line.
+  std::vector<float> share(light.size());
+  for (std::size_t i = 0; i < share.size(); ++i)
+    share[i] = static_cast<float>(worth.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius));
   return share;
 }
 
@@ -444,7 +448,7 @@ plan::Decision smoothing_decision(const PlanInput& input) {
     return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
   if (input.preset.stop.passes == 1)
     return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
-  if (input.settings.estimator == Settings::Estimator::tiles && !map_decision(input).runs &&
+  if (input.settings.estimator == Settings::Estimator::tiles && !tracing::may_see_glass_or_mirror(input.scene) &&
       !input.tables.has_even_sky && !indirect_decision(input).runs)
     return {name, false, "tiles are as wide as their cells, and the camera sees no glass and no mirror"};
   return {

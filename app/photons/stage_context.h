@@ -3,13 +3,16 @@
 #pragma once
 #include "kernels/photons/launch_types.h"
 #include "photons/coarse.h"
-#include "photons/maps/photon_map.h"
 #include "photons/receivers/receiver_light.h"
 #include "photons/tables/run_tables.h"
+#include "tracing/film.h"
 #include "tracing/slices.h"
 #include "tracing/world.h"
 
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -34,6 +37,12 @@ struct PreviewBlocks {
 
 struct Relighting;
 
+/// What paths from the eye have found of a kind of light on receivers.
+struct SeenLight {
+  compute::Buffer<std::int64_t> film, preview;                 ///< in quanta of the direct film
+  std::function<std::array<double, 2>(std::size_t)> samples{}; ///< of a pixel, in each half
+};
+
 struct StageContext : tracing::World {
   RunTables tables;
   double white = 1;
@@ -42,12 +51,28 @@ struct StageContext : tracing::World {
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
   PreviewBlocks preview{};
-  std::optional<PhotonMap> map{};           ///< map that also takes the splatted photons, where a stage gathers them
-  std::optional<ReceiverLight> receivers{}; ///< light that tiles leave where glass and mirrors show it
-  std::shared_ptr<Relighting> relighting{}; ///< set where layers are kept for another light
+  std::optional<ReceiverLight> receivers{}; ///< light that photons leave where glass and mirrors show it
+  std::optional<SeenLight> caustics_seen{}, indirect_seen{}; ///< with receivers, and light of that kind
+  std::shared_ptr<Relighting> relighting{};                  ///< set where layers are kept for another light
 
   /// The number of 64-bit sums of a film of XYZ.
   std::size_t film_size() const { return std::size_t{3} * halves * pixels.count; }
+  bool keeps_indirect() const { return receivers && defines.at("NEPHROID_KINDS_OF_LIGHT") == "2"; }
+  /// Adds what paths from the eye have found to a layer of the picture, or to that of the preview.
+  void add_seen_light(const SeenLight& seen, const char* layer, job::Picture& picture) const {
+    tracing::add_layer(layer, {context.all_reduced_sum(seen.film), tables.direct_scale * white, seen.samples}, picture);
+  }
+  void add_seen_preview(const SeenLight& seen, const char* layer, job::Picture& picture) const {
+    const auto samples = [](std::size_t) { return std::array{1.0, 1.0}; };
+    tracing::add_layer(layer, {context.all_reduced_sum(seen.preview), tables.direct_scale * white, samples}, picture);
+  }
+  /// Whether paths from the eye are to see what a pass has left on receivers: to sum up all pages takes as long as some
+  /// 100,000 photons, so it is after ever fewer of the passes.
+  static bool is_taken(std::int64_t pass) { return std::popcount(static_cast<std::uint64_t>(pass + 1)) <= 2; }
+  /// How many of so many batches or passes are in each half.
+  std::array<double, 2> of_halves(std::int64_t count) const {
+    return halves == 2 ? std::array{double((count + 1) / 2), double(count / 2)} : std::array{double(count), 0.0};
+  }
   /// The run's camera with a pixel for each block of the preview.
   shared::DeviceCamera preview_camera() const {
     shared::DeviceCamera camera = tables.camera;

@@ -168,7 +168,7 @@ private:
     }
     if (world_.halves == 2 && batches_ > 0) estimate_bias(added);
     if (world_.receivers) {
-      world_.receivers->take(1 / growth(), part);
+      world_.receivers->take_tiles(1 / growth(), part);
       world_.receivers->sums().fill_zero();
     }
     const std::vector<std::int64_t> quanta = world_.context.all_reduced_sum(energy_);

@@ -15,14 +15,14 @@ namespace nephroid::tracing {
 /// What a run may leave out where its scene does not need it; omissions.h says where. A preset leaves out all of it or
 /// nothing. Tests turn one thing back on and show that the picture stays the same.
 struct LeaveOut {
-  bool all = true;              ///< the default of the others
-  bool direct = all;            ///< the layer "direct" where no surface is diffuse
-  bool photons = all;           ///< photons where no object bends light or no surface is diffuse
-  bool photon_maps = all;       ///< photon maps where the camera sees every diffuse surface directly
-  bool stray_photons = all;     ///< photons that start towards anything but glass and mirrors
-  bool unreached_targets = all; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
-  bool dark_lights = all;       ///< lights without power
-  bool unlit_wavelengths = all; ///< wavelengths that no light has
+  bool all = true;               ///< the default of the others
+  bool direct = all;             ///< the layer "direct" where no surface is diffuse
+  bool photons = all;            ///< photons where no object bends light or no surface is diffuse
+  bool light_on_receivers = all; ///< light on receivers where the camera sees every diffuse surface directly
+  bool stray_photons = all;      ///< photons that start towards anything but glass and mirrors
+  bool unreached_targets = all;  ///< for each light: glass and mirrors outside a spot's cone or behind an area light
+  bool dark_lights = all;        ///< lights without power
+  bool unlit_wavelengths = all;  ///< wavelengths that no light has
   bool occlusion = all;      ///< the shadow ray from a caustic back to the camera where nothing can stand between them
   bool light_types = all;    ///< kernels without the code of types of light that the scene does not have
   bool mirrors = all;        ///< kernels without mirrors

@@ -82,7 +82,7 @@ static inline float3 shown_after(const Background* background, const SpectrumCho
 IN_PLACE float3 shown_at_end(const World* world, const Background* background, const SpectrumChoice* choice,
                              const Path* path, const Band* band, float2 place, uint2 seed, uint frame, uint number,
                              uint pixel) {
-  const bool swept = is_swept(world, path, band);
+  const bool swept = ends_of_band(world, path, band) == ENDS_SWEPT;
   float3 xyz = (float3)(0.0f);
   for (int i = 0; i < (swept ? 4 : 1); ++i) {
     Path way = *path;

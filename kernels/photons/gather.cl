@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds photons near a visible point to its pixel: as one sample of the film, or to the pixel's progressive statistics.
+// Adds photons near a visible point to its pixel's progressive statistics.
 //
 // A photon carries the flux F that arrives, times the reflectance, as XYZ. On a surface of area A it adds F / A to the
 // exitance, of which a Lambertian surface sends 1 / pi per steradian and projected area. The photons within r of a
 // point of a plane lie on A = pi r^2, so
 //   L = sum of F / (pi * pi r^2),
 // and what reaches the eye is L times the path's throughput.
-#include "kernels/tracing/film.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/photons/photon_map.h"
-
-// points: as in view.cl, for pixels[first] and those after it. picture: its number of pixels. radius: the same for all.
-// film_per_quantum: film quanta of radiance per quantum of a photon, with the factor 1 / (pi^2 r^2) above, r in metres.
-kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, volatile global long* film,
-                           volatile global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                           __global const uint* pixels, uint picture, uint pass, uint first, uint count, float radius,
-                           float film_per_quantum) {
-  const uint i = work_item();
-  if (i >= count) return;
-  const VisiblePoint point = points[i];
-  if (point.group == NO_PHOTON) return;
-  const PhotonMap map = PHOTON_MAP;
-  const Gathered gathered = gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, radius);
-  if (gathered.count == 0) return;
-  const float3 xyz = convert_float3(gathered.xyz) * point.throughput.xyz;
-  if (!film_add_dithered(film_of_iteration(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum,
-                         FILM_LIMIT, point.position.w))
-    add_exactly(energy + OUTCOME_REFUSED, 1);
-}
 
 // One iteration of Hachisuka and Jensen (2009), "Stochastic Progressive Photon Mapping", with the statistics of the
 // pixel in one cluster: of M photons within the radius R, alpha M are added to the N there are, and R shrinks so that

@@ -2,27 +2,23 @@
 // The part of the layer "indirect" that begins as a caustic, or as the light of a narrow spot. Photons of one
 // wavelength each leave the lights, towards glass and mirrors or all over the spot's cone. They are bent, and scattered
 // by diffuse surfaces. From the second of these on, each adds to the pixel that sees it. Only absorption changes its
-// power: reflectances decide by chance. A map takes photons for what glass and mirrors show.
+// power: reflectances decide by chance. Receivers keep their light for what glass and mirrors show.
 #include "kernels/photons/launch_types.h"
-#include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
-#include "kernels/photons/store.h"
+#include "kernels/photons/receiver.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
-
-// 1: what the map's photons meet on their way to the eye has a wavelength: they share those of the pass with its paths.
-#ifndef NEPHROID_SHARED_BANDS
-#define NEPHROID_SHARED_BANDS 0
-#endif
 
 typedef struct {
   volatile __global long* film;
   float scale; // quanta per unit of radiance
   DeviceCamera camera;
-  __global StoredPhoton* slot; // with NEPHROID_STORE: the photon's in the map
-  float stored_scale;          // ... quanta per unit of power
-  int object_count;
+#if NEPHROID_RECEIVERS
+  Receivers receivers;
+  volatile __global long* light; // sums of the half's second kind
+  float stored_scale;            // quanta per unit of power
+#endif
 } Receiver;
 
 typedef struct {
@@ -31,7 +27,6 @@ typedef struct {
   SET_ASIDE float watts;    // as if the band had all of the light's power
   SET_ASIDE int wavelength; // wavelength and weight of its band
   SET_ASIDE float weight;
-  SET_ASIDE int band; // of its band in the map (pass_band.h)
   SET_ASIDE int light; // light and rgb of its source
   SET_ASIDE float3 rgb;
   uint2 seed;
@@ -39,7 +34,6 @@ typedef struct {
   bool counts;      // it has met glass or a mirror, or comes from a narrow spot: others light is found from the eye
   bool met_diffuse;
   bool met_glass; // before its first diffuse surface: paths from the eye do not find its light
-  uint met;       // surfaces at which it might be stored
   bool is_absorbed;
   int refused; // contributions, by the film
 } Visitor;
@@ -89,33 +83,19 @@ static inline void show(const World* world, Visitor* photon, const Path* path, c
     ++photon->refused;
 }
 
-#if NEPHROID_STORE
-// Stores a photon, reflected by a diffuse surface. Of the surfaces that it meets one is drawn, this one with the chance
-// 1 / met, and stands for all of them.
-static inline void store(const World* world, Visitor* photon, const Path* path, const Interaction* at,
-                         Reflector reflector, int n) {
-  const float2 random = photon_numbers(photon, 0x10000000u | (uint)n).xy;
-  ++photon->met;
-  if (random.x * (float)photon->met >= 1.0f) return;
+#if NEPHROID_RECEIVERS
+// Leaves a photon's light, reflected by a diffuse surface, on its receiver.
+static inline void leave(const World* world, Visitor* photon, const Path* path, const Interaction* at,
+                         Reflector reflector) {
+  const Receiver* to = photon->receiver;
   const Band band = visitor_band(photon);
   const float3 xyz = carried_light(world, &path->throughput, light_of(photon), &band, reflector).xyz;
   const float power = photon->watts * photon->shading * shading_ratio(&at->surface, path->direction);
-  if (!store_photon(photon->receiver->slot, &at->surface, path->direction, photon->band,
-                    photon->receiver->object_count, xyz * power, photon->receiver->stored_scale, random.y))
+  const float side = dot(path->direction, at->surface.geometric) < 0.0f ? 1.0f : -1.0f;
+  const int layer = layer_of(&to->receivers, photon->wavelength);
+  if (!add_to_receiver(&to->receivers, &at->surface, side, (float3)(0.0f), (float3)(0.0f),
+                       to->light + 3 * PAGE_TEXELS * (size_t)layer, xyz * (power * to->stored_scale)))
     ++photon->refused;
-}
-
-// Makes the photon in a slot stand for `met` surfaces. False where it would carry too much.
-static inline bool stand_for(__global StoredPhoton* slot, uint met) {
-  if (met < 2u || slot->group == NO_PHOTON) return true;
-  for (int c = 0; c < 3; ++c) {
-    if (fabs((float)slot->xyz[c]) * (float)met > PHOTON_LIMIT) {
-      slot->group = NO_PHOTON;
-      return false;
-    }
-    slot->xyz[c] *= (int)met;
-  }
-  return true;
 }
 #endif
 
@@ -124,8 +104,8 @@ static inline bool visit_base(const World* world, Visitor* photon, Path* path, c
   const float4 random = photon_numbers(photon, 2u + (uint)n);
   const Reflector reflector = reflector_at(world, &at->surface, at->triangle);
   if (photon->met_diffuse) show(world, photon, path, at, reflector, random.w, n);
-#if NEPHROID_STORE
-  if (photon->met_diffuse && photon->met_glass) store(world, photon, path, at, reflector, n);
+#if NEPHROID_RECEIVERS
+  if (photon->met_diffuse && photon->met_glass) leave(world, photon, path, at, reflector);
 #endif
   photon->met_diffuse = true;
   photon->shading *= shading_ratio(&at->surface, path->direction);
@@ -155,49 +135,29 @@ static inline bool visit_scatter(const World* world, Visitor* photon, Path* path
 #define WALK_SCATTERS
 #include "kernels/transport/walk.h"
 
-// Draws a photon's wavelength, by a number in [0, 1) and the light's chances of those of all clusters.
-static inline void choose_wavelength(const World* world, __global const float* chances, float random, uint2 seed,
-                                     uint pass, Visitor* photon) {
-  __global const int* const first = world->tables.cluster_first;
-  const int members = first[world->scene.cluster_count];
-  DrawnWavelength drawn = wavelength_of_cluster(world->tables.cluster_wavelengths, chances, members, random);
-#if NEPHROID_STORE
-  const int member = choose(chances, members, random);
-  int cluster = 0, part = 0;
-  while (first[cluster + 1] <= member) ++cluster;
-#if NEPHROID_SHARED_BANDS
-  const float before = chance_before(chances, first[cluster]), chance = chances[first[cluster + 1] - 1] - before;
-  part = part_of_cluster((random - before) / chance);
-  const Band band = band_of_pass(world, cluster, part, seed, pass);
-  drawn.wavelength = band.wavelength;
-  drawn.weight = band.weight / chance;
-#endif
-  photon->band = band_number(cluster, part);
-#endif
-  photon->wavelength = drawn.wavelength;
-  photon->weight = drawn.weight;
-}
-
 // emitters: one for each light that has photons.
 __kernel void indirect_photons(WORLD_ARGUMENTS,
                                __global const DeviceEmitter* emitters,
                                __global const float* spectrum_cdf, // [light][member of all clusters]: chances
                                volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                               __global StoredPhoton* stored, // [photon], with NEPHROID_STORE
+                               __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
                                DeviceCamera camera, DevicePhotonLaunch launch) {
   const World world = WORLD;
   const int members = world.tables.cluster_first[scene.cluster_count];
-  Receiver receiver = {film_of_iteration(film, launch.iteration, camera.width * camera.height), launch.film_scale,
-                       camera, stored, launch.stored_scale, launch.object_count};
+  Receiver receiver;
+  receiver.film = film_of_iteration(film, launch.iteration, camera.width * camera.height);
+  receiver.scale = launch.film_scale;
+  receiver.camera = camera;
+#if NEPHROID_RECEIVERS
+  receiver.receivers = receivers_of(receiver_table);
+  receiver.light = light + first_texel(&receiver.receivers, launch.iteration % NEPHROID_FILM_HALVES, 1, 0);
+  receiver.stored_scale = launch.stored_scale;
+#endif
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= launch.count) break;
     const uint number = launch.offset + launch.stride * item;
-#if NEPHROID_STORE
-    receiver.slot = stored + number;
-    receiver.slot->group = NO_PHOTON;
-#endif
     const DeviceEmitter emitter = emitters[emitter_of(emitters, launch.emitter_count, number)];
     __global const DeviceLight* light = world.lights + emitter.light;
     const float4 random = random4(launch.seed, launch.iteration, number, 0u, STREAM_INDIRECT_PHOTONS);
@@ -219,10 +179,11 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
     photon.number = number;
     photon.counts = narrow;
     photon.met_diffuse = photon.met_glass = photon.is_absorbed = false;
-    photon.met = 0u;
     photon.refused = 0;
-    choose_wavelength(&world, spectrum_cdf + emitter.light * members, random.w, launch.seed, launch.iteration,
-                      &photon);
+    const DrawnWavelength drawn = wavelength_of_cluster(
+        world.tables.cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);
+    photon.wavelength = drawn.wavelength;
+    photon.weight = drawn.weight;
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
                  light->inside,    full_throughput(),  emission.behind};
     Hit hit;
@@ -233,9 +194,6 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
                         : how == WALK_LOST     ? OUTCOME_LOST
                         : how == WALK_LEFT && photon.counts ? OUTCOME_ESCAPED
                                                : OUTCOME_MISSED;
-#if NEPHROID_STORE
-    if (!stand_for(receiver.slot, photon.met)) ++photon.refused;
-#endif
     add_outcome(outcomes, OUTCOME_REFUSED, photon.refused);
     const Band band = visitor_band(&photon);
     count_photon(outcomes, outcome, last + 1,

@@ -17,11 +17,10 @@ typedef struct {
   uint first_iteration; // the first with this allocation of photons to the emitters
   uint offset, stride, count;
   uint photons_per_batch;
-  uint map_pass;     // the pass of the photon maps
-  uint stored_first; // where the batch begins among the stored photons
+  uint map_pass; // the pass of the photon maps
   int emitter_count, object_count;
-  float film_scale, energy_scale, stored_scale; // quanta of the film, of the balance of energy, of a stored photon
-  float unseen_weight; // with NEPHROID_MOMENTS: weight of a stored photon that no pixel sees directly
+  float film_scale, energy_scale, stored_scale; // quanta of the film, of the balance of energy, of light that is kept
+  float unseen_weight; // with NEPHROID_MOMENTS: weight of a photon that no pixel sees directly
 } DevicePhotonLaunch;
 
 // Of kernels that take `count` samples, each of a pixel.
@@ -41,20 +40,18 @@ typedef struct {
   int padding;
 } DeviceRowLaunch;
 
-// Of view.cl: paths of the pixels first, ..., first + count - 1 of a list. Each counts 1 / path_count of a pass.
+// Of view.cl: paths of the pixels first, ..., first + count - 1, all in a cluster.
 typedef struct {
   uint2 seed;
   uint pass;
-  uint sample, place; // the number of earlier paths of a pixel; of those in this half of the film
-  uint path_count;
-  int cluster; // that of all paths; -1: each takes its own
+  int cluster;
   int object_count;
   uint first, count;
 } DeviceViewLaunch;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DevicePhotonLaunch) == 64 && sizeof(DeviceSampleLaunch) == 24);
-static_assert(sizeof(DeviceRowLaunch) == 32 && sizeof(DeviceViewLaunch) == 40);
+static_assert(sizeof(DeviceRowLaunch) == 32 && sizeof(DeviceViewLaunch) == 32);
 } // namespace nephroid::shared
 #endif
 

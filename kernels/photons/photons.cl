@@ -5,6 +5,7 @@
 #include "kernels/photons/launch_types.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_path.h"
+#include "kernels/photons/receiver.h"
 #include "kernels/photons/store.h"
 #include "kernels/photons/stretch.h"
 #include "kernels/tracing/work_item.h"
@@ -29,6 +30,20 @@ static inline long squared(float3 xyz, float scale) {
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
 }
 
+#if NEPHROID_RECEIVERS
+// A photon's light in its layer, as the xyz of its end, which is of all clusters until glass splits it: then that of its
+// own, where that is of one layer.
+static inline float3 light_of_layer(const World* world, const Receivers* on, Source source, const PhotonEnd* end,
+                                    const Path* path, const Band* band) {
+  if (!is_unsplit(&path->throughput, band) || on->layers == 1) return end->xyz;
+  Throughput alone = path->throughput;
+  alone.is_split = true;
+  Band whole = *band;
+  if (is_of_one_layer(on, &world->tables, band->cluster)) whole.wavelength = -1;
+  return carried_light(world, &alone, source, &whole, reflector_at(world, &end->surface, end->triangle)).xyz;
+}
+#endif
+
 // energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
@@ -36,9 +51,13 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
                       volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
                       __global const float* guide,                                  // ... [light][GUIDE_FLOATS]
                       __global StoredPhoton* stored,                                // with NEPHROID_STORE: [photon]
+                      __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
                       DeviceCamera camera, DevicePhotonLaunch launch) {
   const World world = WORLD;
   OUTCOMES(outcomes);
+#if NEPHROID_RECEIVERS
+  const Receivers receivers = receivers_of(receiver_table);
+#endif
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= launch.count) break;
@@ -46,7 +65,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     const uint batch = launch.iteration + place / launch.photons_per_batch,
                photon = place % launch.photons_per_batch;
 #if NEPHROID_STORE
-    stored[launch.stored_first + place].group = NO_PHOTON;
+    stored[place].group = NO_PHOTON;
 #endif
     PhotonStart start = photon_start(emitters, launch.emitter_count, world.lights, launch.seed, batch,
                                      launch.first_iteration, photon);
@@ -60,10 +79,9 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     const Emission emission = emit(&world, emitter.light, start.emission, start.place);
     const Source source = emission.source;
     if (emission.watts == 0.0f) continue;
-    const int part = part_of_cluster(start.wavelength);
     Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #if NEPHROID_STORE && NEPHROID_JITTER
-    lead(&band, band_of_pass(&world, emitter.cluster, part, launch.seed, launch.map_pass));
+    lead(&band, band_of_pass(&world, emitter.cluster, launch.seed, launch.map_pass));
 #endif
 #if NEPHROID_SPLAT && NEPHROID_JITTER && NEPHROID_UNSPLIT
     carry_all_of_light(&world, emitters, launch.emitter_count, &start, &band);
@@ -77,15 +95,20 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     const PhotonEnd end = trace_photon(&world, source, &band, share, &path, launch.seed, batch, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
-      float3 xyz = end.xyz;
-      if (is_unsplit(&path.throughput, &band)) { // photons of a map have one wavelength, as paths that gather them
-        Throughput alone = path.throughput;
-        alone.is_split = true;
-        xyz = carried_light(&world, &alone, source, &band, reflector_at(&world, &end.surface, end.triangle)).xyz;
-      }
-      xyz *= watts * shading_ratio(&end.surface, path.direction);
-      if (!store_photon(stored + launch.stored_first + place, &end.surface, path.direction,
-                        band_number(emitter.cluster, part), launch.object_count, xyz, launch.stored_scale, dither))
+      const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
+      if (!store_photon(stored + place, &end.surface, path.direction, emitter.cluster, launch.object_count, xyz,
+                        launch.stored_scale, dither))
+        add_outcome(outcomes, OUTCOME_REFUSED, 1);
+    }
+#endif
+#if NEPHROID_RECEIVERS
+    if (end.outcome == OUTCOME_DEPOSITED) {
+      const float side = dot(path.direction, end.surface.geometric) < 0.0f ? 1.0f : -1.0f;
+      const float3 xyz = light_of_layer(&world, &receivers, source, &end, &path, &band);
+      const float power = watts * shading_ratio(&end.surface, path.direction) * launch.stored_scale;
+      const int layer = layer_of_band(&receivers, &world.tables, &band);
+      if (!add_to_receiver(&receivers, &end.surface, side, (float3)(0.0f), (float3)(0.0f),
+                           light + first_texel(&receivers, batch % NEPHROID_FILM_HALVES, 0, layer), xyz * power))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
 #endif
@@ -113,7 +136,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     }
 
 #if NEPHROID_MOMENTS
-    if (NEPHROID_STORE && end.outcome == OUTCOME_DEPOSITED && moment == 0)
+    if (NEPHROID_RECEIVERS && end.outcome == OUTCOME_DEPOSITED && moment == 0)
       moment = squared(end.xyz * (watts * launch.unseen_weight / PI_F), launch.film_scale);
     if (moment != 0) {
       add_exactly(moments + start.emitter, moment);

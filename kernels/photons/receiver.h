@@ -14,6 +14,17 @@
 #include "kernels/photons/receiver_types.h"
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/surface.h"
+#include "kernels/tracing/world.h"
+
+// 1: light is kept on receivers, for what glass and mirrors show.
+#ifndef NEPHROID_RECEIVERS
+#define NEPHROID_RECEIVERS 0
+#endif
+
+// 1: caustics alone; 2: also their light from diffuse surfaces, of the layer "indirect".
+#ifndef NEPHROID_KINDS_OF_LIGHT
+#define NEPHROID_KINDS_OF_LIGHT 1
+#endif
 
 // A surface that faces an axis by less than this is not on its charts. Every surface faces one by .577 or more.
 #define CHART_LEAST 0.4f
@@ -26,25 +37,41 @@ typedef struct {
   __global const DeviceCharts* receivers; // [object]
   __global const int* roots;                // [chart]: a page, or NO_PAGE
   __global const DevicePage* pages;
-  int page_count, layers;
+  __global const int *layer_members, *wavelength_layers; // DeviceReceiverTable
+  __global const float* layer_places;
+  int page_count;
+  int layers; // of each kind of light
 } Receivers;
 
 static inline Receivers receivers_of(__global const int* table) {
   const DeviceReceiverTable at = *(__global const DeviceReceiverTable*)table;
   const Receivers on = {(__global const DeviceCharts*)(table + at.receivers), table + at.roots,
-                        (__global const DevicePage*)(table + at.pages), at.page_count, at.layers};
+                        (__global const DevicePage*)(table + at.pages),
+                        table + at.layer_members, table + at.wavelength_layers,
+                        (__global const float*)(table + at.layer_places), at.page_count, at.layers};
   return on;
 }
 
-// Light is [half][page][layer][PAGE_TEXELS][3]. From a page to the next, and the first of a half and layer.
-static inline size_t page_size(const Receivers* on) { return 3 * PAGE_TEXELS * (size_t)on->layers; }
-static inline size_t first_texel(const Receivers* on, uint film_half, int layer) {
-  return page_size(on) * (size_t)on->page_count * film_half + 3 * PAGE_TEXELS * (size_t)layer;
+// Light is [half][page][kind][layer][PAGE_TEXELS][3]. From a page to the next, and the first of a half, kind and layer.
+static inline size_t page_size(const Receivers* on) {
+  return 3 * PAGE_TEXELS * NEPHROID_KINDS_OF_LIGHT * (size_t)on->layers;
+}
+static inline size_t first_texel(const Receivers* on, uint film_half, int kind, int layer) {
+  return page_size(on) * (size_t)on->page_count * film_half +
+         3 * PAGE_TEXELS * ((size_t)kind * (size_t)on->layers + (size_t)layer);
 }
 
-// The layer of a cluster.
-static inline int layer_of(const Receivers* on, int cluster, int cluster_count) {
-  return cluster * on->layers / cluster_count;
+static inline int layer_of(const Receivers* on, int wavelength) { return on->wavelength_layers[wavelength]; }
+// Of a band whose wavelengths go one way, and of others that of its leader.
+static inline int layer_of_band(const Receivers* on, const SpectralTables* tables, const Band* band) {
+  return layer_of(on, band->wavelength >= 0 ? band->wavelength
+                                            : tables->cluster_wavelengths[tables->cluster_first[band->cluster]]);
+}
+// Whether all of a cluster is in one layer.
+static inline bool is_of_one_layer(const Receivers* on, const SpectralTables* tables, int cluster) {
+  const int first = tables->cluster_first[cluster], end = tables->cluster_first[cluster + 1],
+            layer = layer_of(on, tables->cluster_wavelengths[first]);
+  return first >= on->layer_members[layer] && end <= on->layer_members[layer + 1];
 }
 
 static inline float of_axis(float3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -94,6 +121,18 @@ static inline float level_of(float size, float texels) {
   return clamp(log2(texels / (PAGE_EDGE * size)), 0.0f, (float)PAGE_LEVELS);
 }
 
+// The page of at most this level under a place.
+static inline int page_under(const Receivers* on, int root, float2 place, int deepest) {
+  int number = root;
+  for (int level = 0; level < deepest; ++level) {
+    const DevicePage page = on->pages[number];
+    if (page.child == NO_PAGE) break;
+    const float2 corner = place * (float)(2 << level) - convert_float2((int2)(2 * page.x + 1, 2 * page.y + 1));
+    number = page.child + (corner.x >= 0.0f ? 1 : 0) + (corner.y >= 0.0f ? 2 : 0);
+  }
+  return number;
+}
+
 // The pages of at most this level under a footprint, which reaches over at most FOOTPRINT_TEXELS of their texels.
 static inline int pages_under(const Receivers* on, int root, float2 low, float2 high, int deepest, int under[4]) {
   int count = 1;
@@ -138,8 +177,25 @@ static inline void texels_under(const Footprint* f, int2* from, int2* to) {
   *to = min(convert_int2_rtn(high_corner(f)), PAGE_EDGE - 1);
 }
 
+static inline void add_quanta(volatile __global long* sum, long x, long y, long z) {
+  add_exactly(sum, x);
+  add_exactly(sum + 1, y);
+  add_exactly(sum + 2, z);
+}
+
+// Adds a photon's light to the texel under its place on a chart.
+static inline void add_point_to_chart(const Receivers* on, int root, float2 place, volatile __global long* sums,
+                                      float3 quanta) {
+  const int number = page_under(on, root, place, PAGE_LEVELS);
+  const DevicePage page = on->pages[number];
+  const int2 texel = clamp(convert_int2_rtn(place * (float)(PAGE_EDGE << page.level)) -
+                               (int2)(page.x, page.y) * PAGE_EDGE, 0, PAGE_EDGE - 1);
+  add_quanta(sums + page_size(on) * (size_t)number + 3 * (texel.y * PAGE_EDGE + texel.x), convert_long_rte(quanta.x),
+             convert_long_rte(quanta.y), convert_long_rte(quanta.z));
+}
+
 // Adds a footprint's light to a chart, by exact area; all texels together get all of it.
-static inline void add_to_chart(const Receivers* on, int root, const Footprint* on_chart, int deepest, bool is_point,
+static inline void add_to_chart(const Receivers* on, int root, const Footprint* on_chart, int deepest,
                                 volatile __global long* sums, float3 quanta) {
   int under[4];
   const int count = pages_under(on, root, low_corner(on_chart), high_corner(on_chart), deepest, under);
@@ -148,7 +204,7 @@ static inline void add_to_chart(const Receivers* on, int root, const Footprint* 
   for (int i = 0; i < count; ++i) {
     const DevicePage page = on->pages[under[i]];
     Footprint f = footprint_on_page(on_chart, &page);
-    if (is_point || !has_area(&f)) shrink_to_point(&f);
+    if (!has_area(&f)) shrink_to_point(&f);
     volatile __global long* const texels = sums + page_size(on) * (size_t)under[i];
     int2 from, to;
     texels_under(&f, &from, &to);
@@ -185,14 +241,22 @@ static inline bool add_to_receiver(const Receivers* on, const Surface* surface, 
     if (!(fabs(of_axis(place.normal, axis)) > CHART_LEAST)) continue;
     const Footprint f = footprint_on_chart(across_axis(place.position, axis), across_axis(place.a, axis),
                                            across_axis(place.b, axis));
-    const int deepest = is_point ? PAGE_LEVELS : (int)level_of(widest, FOOTPRINT_TEXELS);
-    // Near the end of a slab a look may come from the next one.
-    const float depth = of_axis(place.position, axis),
-                reach = 0.25f / (float)place.receiver.slabs +
+    const int deepest = (int)level_of(widest, FOOTPRINT_TEXELS);
+    // A look takes texels in the slab of its place, and those beside it may lie in the next one.
+    const float depth = of_axis(place.position, axis), faces = fabs(of_axis(place.normal, axis)),
+                rise = sqrt(fmax(1.0f - faces * faces, 0.0f)) / faces;
+    const int root = on->roots[chart_of(&place, axis, depth)],
+              level = root == NO_PAGE ? 0 : on->pages[page_under(on, root, f.middle, PAGE_LEVELS)].level;
+    const float reach = 2.0f * rise / (float)(PAGE_EDGE << level) +
                         0.5f * (fabs(of_axis(place.a, axis)) + fabs(of_axis(place.b, axis)));
     const int last = chart_of(&place, axis, depth + reach);
     for (int chart = chart_of(&place, axis, depth - reach); chart <= last; ++chart)
-      if (on->roots[chart] != NO_PAGE) add_to_chart(on, on->roots[chart], &f, deepest, is_point, sums, quanta);
+      if (on->roots[chart] == NO_PAGE)
+        continue;
+      else if (is_point)
+        add_point_to_chart(on, on->roots[chart], f.middle, sums, quanta);
+      else
+        add_to_chart(on, on->roots[chart], &f, deepest, sums, quanta);
   }
   return true;
 }
@@ -252,20 +316,25 @@ static inline ChartLook look_on_chart(const Receivers* on, const Surface* surfac
   return look;
 }
 
-// The mean irradiance over a footprint, XYZ in quanta per square unit, of `layers` layers. at: as in look_on_chart.
-// totals: from first_texel on, by receiver_light.cl.
-static inline float3 look_at_receiver(const Receivers* on, const Surface* surface, float side, float3 a, float3 b,
-                                      float2 at, __global const float* totals, int layers) {
+// The XYZ of each kind of light.
+typedef struct {
+  float3 caustic, indirect;
+} LightOfKinds;
+
+// The mean irradiance over a footprint, in quanta per square unit, of `layers` layers, each with its weight. at: as in
+// look_on_chart. totals: from first_texel of the first kind on, by receiver_light.cl.
+IN_PLACE LightOfKinds look_at_receiver(const Receivers* on, const Surface* surface, float side, float3 a, float3 b,
+                                 float2 at, __global const float* totals, int layers, const float* weights) {
+  const LightOfKinds none = {(float3)(0.0f), (float3)(0.0f)};
   ChartLook look = look_on_chart(on, surface, side, a, b, at);
-  if (look.chart == NO_PAGE || on->roots[look.chart] == NO_PAGE) return (float3)(0.0f);
+  if (look.chart == NO_PAGE || on->roots[look.chart] == NO_PAGE) return none;
   const int root = on->roots[look.chart];
   int under[4];
-  pages_under(on, root, look.middle, look.middle, look.level, under);
-  const int level = on->pages[under[0]].level;
+  const int level = on->pages[page_under(on, root, look.middle, look.level)].level;
   widen(&look.a, &look.b, 1.0f / (float)(PAGE_EDGE << level));
   const Footprint f = footprint_on_chart(look.middle, look.a, look.b);
   const int count = pages_under(on, root, low_corner(&f), high_corner(&f), level, under);
-  float3 sum = (float3)(0.0f);
+  LightOfKinds sum = none;
   float area = 0.0f;
   for (int i = 0; i < count; ++i) {
     const DevicePage page = on->pages[under[i]];
@@ -279,11 +348,20 @@ static inline float3 look_at_receiver(const Receivers* on, const Surface* surfac
       for (int column = from.x; column <= to.x; ++column) {
         const float part =
             fmax(orientation * covered(&on_page, (float2)((float)column, (float)row) - on_page.middle), 0.0f);
-        for (int layer = 0; layer < layers; ++layer)
-          sum += part * vload3(layer * PAGE_TEXELS + row * PAGE_EDGE + column, texels);
+        for (int layer = 0; layer < layers; ++layer) {
+          const float weight = part * weights[layer];
+          sum.caustic += weight * vload3(layer * PAGE_TEXELS + row * PAGE_EDGE + column, texels);
+#if NEPHROID_KINDS_OF_LIGHT > 1
+          sum.indirect +=
+              weight * vload3((on->layers + layer) * PAGE_TEXELS + row * PAGE_EDGE + column, texels);
+#endif
+        }
         area += part * texel * texel;
       }
   }
   const float per_unit = on->receivers[surface->object].per_unit, square_units = area / (per_unit * per_unit);
-  return square_units > 0.0f ? sum * (look.cosine / square_units) : (float3)(0.0f);
+  if (!(square_units > 0.0f)) return none;
+  sum.caustic *= look.cosine / square_units;
+  sum.indirect *= look.cosine / square_units;
+  return sum;
 }

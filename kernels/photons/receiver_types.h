@@ -14,6 +14,7 @@ namespace nephroid::shared {
 #define PAGE_TEXELS (PAGE_EDGE * PAGE_EDGE)
 #define PAGE_LEVELS 16
 #define NO_PAGE (-1)
+#define MOST_LAYERS 8 // of light, each of some wavelengths
 
 // The charts of an object: for each axis one of what faces down it and one of what faces up it, in each slab of depth.
 #define CHARTS_OF_SLAB 6
@@ -39,29 +40,23 @@ typedef struct {
   int level;  // of the pages whose texels are as large as it wants them
 } DeviceLook;
 
-// How many ends of a pixel's first sample ask for pages.
-#define ASKING_ENDS 3
+// How many samples of a pixel ask for pages, each in its part of the spectrum, and how many ends of each.
+#define ASKING_SAMPLES 4
+#define ASKING_ENDS 4
 
 // The table of a run's receivers: these, in ints from its start, then the structs.
 typedef struct {
   int receivers, roots, pages; // where each begins: DeviceCharts [object], int [chart], DevicePage [page]
+  int layer_members, layer_places; // ... int and float [layer + 1]: the first of all clusters' members in a layer, and
+                                   // that one's place in the spectrum (member_at)
+  int wavelength_layers;           // ... int [WAVELENGTH_COUNT]: the layer of each
   int page_count;
-  int layers; // of light, each of some clusters
+  int layers; // of light, MOST_LAYERS or fewer
 } DeviceReceiverTable;
-
-// Of receiver_eye.cl: for each of the pixels first, ..., first + count - 1 of a list, the samples first_sample,
-// first_sample + sample_step, ..., whose mean is a sample of the film's half.
-typedef struct {
-  uint2 seed;
-  uint first_sample, sample_step, sample_count;
-  uint film_half;
-  uint first, count;
-  float film_per_quantum; // film quanta per quantum of radiance times pi and square unit
-} DeviceLookLaunch;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceCharts) == 24 && sizeof(DevicePage) == 20 && sizeof(DeviceLook) == 16);
-static_assert(sizeof(DeviceReceiverTable) == 20 && sizeof(DeviceLookLaunch) == 40);
+static_assert(sizeof(DeviceReceiverTable) == 32);
 } // namespace nephroid::shared
 #endif
 

@@ -10,11 +10,6 @@
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
 
-// 1: light is kept on receivers, too, for what glass and mirrors show.
-#ifndef NEPHROID_RECEIVERS
-#define NEPHROID_RECEIVERS 0
-#endif
-
 // The part of a photon's light below which not every point of the lattice follows what is left: one of 4, then of 16,
 // ... does, and stands for all, as a lattice twice as wide. Beyond that many levels chance decides.
 #define TILE_LEAST 0.3f
@@ -110,6 +105,27 @@ static inline float place_of_wavelengths(const DeviceLattice* lattice, uint phot
                            : place_within(photon, 0u).y;
 }
 
+#if NEPHROID_RECEIVERS && NEPHROID_DIFFERENTIALS
+// What the part low .. high of a cluster's wavelengths has in a layer of light. xyz: of all of it, which stays where it
+// is of one layer. False: nothing.
+static inline bool light_in_layer(const World* world, const Receivers* on, int layer, const Path* path,
+                                  const DeviceLattice* lattice, Source source, const Band* band, uint photon,
+                                  Reflector reflector, float low, float high, float3* xyz) {
+  const int first = world->tables.cluster_first[band->cluster], end = world->tables.cluster_first[band->cluster + 1],
+            from = max(on->layer_members[layer], first), to = min(on->layer_members[layer + 1], end);
+  if (from >= to) return false;
+  if (from == first && to == end) return true;
+  __global const float* cdf =
+      world->tables.wavelength_cdf + source.light * world->tables.cluster_first[world->scene.cluster_count] + first;
+  low = fmax(low, chance_before(cdf, from - first));
+  high = fmin(high, to == end ? 1.0f : cdf[to - first - 1]);
+  if (!(low < high)) return false;
+  *xyz = part_left_of(world, &path->throughput, lattice, source, band, place_of_wavelengths(lattice, photon), reflector,
+                      low, high);
+  return true;
+}
+#endif
+
 // The band of a photon, which goes the way of its lattice's wavelength.
 static inline Band band_of_tile(const World* world, const DeviceLattice* lattice, uint photon) {
   Band band = choose_band(world, lattice->light, lattice->cluster, lattice->wavelength);
@@ -140,7 +156,7 @@ typedef struct {
   float scale;
 #if NEPHROID_RECEIVERS
   Receivers receivers;
-  volatile __global long* light; // first_texel of the lattice
+  volatile __global long* light; // first_texel of the lattice's half
   float light_scale;
 #endif
 } TileFilm;
@@ -230,9 +246,20 @@ COMPILED_ONCE bool splat_branch(const World* world, const DeviceCamera* camera, 
     const float shading = shading_ratio(&strand.surface, path->direction);
 #if NEPHROID_RECEIVERS
     const float on_receiver = branch->is_coarse ? COARSE_PART : 1.0f;
-    fits = add_to_receiver(&film->receivers, &strand.surface, side, on_receiver * a, on_receiver * b, film->light,
-                           strand.xyz * (watts * shading * film->light_scale)) &&
-           fits;
+    const float power = watts * shading * film->light_scale;
+    for (int layer = 0; layer < film->receivers.layers; ++layer) {
+      float3 of_layer = strand.xyz;
+#if NEPHROID_DIFFERENTIALS
+      if (!light_in_layer(world, &film->receivers, layer, path, lattice, source, band, photon, reflector, low,
+                          low + part, &of_layer))
+        continue;
+#else
+      if (layer != layer_of_band(&film->receivers, &world->tables, band)) continue;
+#endif
+      fits = add_to_receiver(&film->receivers, &strand.surface, side, on_receiver * a, on_receiver * b,
+                             film->light + 3 * PAGE_TEXELS * (size_t)layer, of_layer * power) &&
+             fits;
+    }
 #endif
     if (!on_film) continue;
     const SeenReceiver receiver = seen_receiver(camera, film->views, &strand.surface, strand.triangle, side);
@@ -380,8 +407,7 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int
     to_film.scale = launch.film_scale;
 #if NEPHROID_RECEIVERS
     to_film.receivers = receivers_of(receiver_table);
-    const int layer = layer_of(&to_film.receivers, lattice.cluster, scene.cluster_count);
-    to_film.light = light + first_texel(&to_film.receivers, lattice.film_half, layer);
+    to_film.light = light + first_texel(&to_film.receivers, lattice.film_half, 0, 0);
     to_film.light_scale = launch.stored_scale;
 #endif
     tile.band = band;

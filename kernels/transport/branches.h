@@ -20,6 +20,7 @@ typedef struct {
   float share; // of the path's radiance by Fresnel's equations, over the chance that the branch is followed
   float scale; // beyond: of radiance, because what glass keeps is radiance over n^2
   int surfaces;
+  float spread;        // by rough surfaces: the angle, in radians, within which it stands for other ways
   bool by_microfacets; // a rough surface scattered it last: what it meets of a lamp is in `shine`
 } EyeBranch;
 
@@ -64,6 +65,7 @@ static inline void begin_branches(Visitor* eye, const Path* path, const Band* ba
   eye->branch.path = *path;
   eye->branch.share = eye->branch.scale = 1.0f;
   eye->branch.surfaces = eye->waiting = 0;
+  eye->branch.spread = 0.0f;
   eye->seed = seed;
   eye->sample = frame * paths + i;
   eye->paths = paths;
@@ -152,6 +154,7 @@ static inline void visit_surface(const World* world, Visitor* eye, const Path* p
   reflected.share *= sample.reflectance;
   reflected.surfaces = n + 1;
   reflected.by_microfacets = eye->is_rough_there;
+  reflected.spread += at->material.alpha;
   bool to_base, back;
   choose_branches(eye, &reflected, n, &to_base, &back);
   if (to_base && back) eye->pending[eye->waiting++] = reflected;
@@ -164,6 +167,8 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
   branch->surfaces = reflected->surfaces = n + 1;
   reflected->by_microfacets = eye->is_rough_there;
   branch->by_microfacets = eye->is_rough_there && !sample->straight;
+  branch->spread += at->material.alpha;
+  reflected->spread = branch->spread;
   branch->scale *= sample->n_ratio * sample->n_ratio;
   if (!sample->transmitted || sample->reflectance == 0.0f) return true;
   reflected->share *= sample->reflectance;

@@ -11,12 +11,12 @@
 #define NEPHROID_COATED 0
 #endif
 
-// How many parts there are for a pixel's path `number` in a half of the film: a power of two, the square root of a
-// quarter of the number; many where ends are not swept, or do not tell what a coating left of other wavelengths.
+// How many parts there are for a pixel's path `number` in a half of the film: a power of two near the cube root of
+// the number; many where ends are not swept, or do not tell what a coating left of other wavelengths.
 static inline uint parts_of_spectrum(uint number) {
   if (!NEPHROID_JITTER) return 1u;
   if (NEPHROID_COATED) return 256u;
-  return NEPHROID_DIFFERENTIALS ? 1u << (31u - clz(max(number / 4u, 1u))) / 2u : 256u;
+  return NEPHROID_DIFFERENTIALS ? 1u << (31u - clz(max(number / 4u, 1u))) / 3u : 256u;
 }
 
 // A place in the spectrum (member_at) for path `path` of `paths` in a frame. One path after the other takes each of the

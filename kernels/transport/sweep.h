@@ -4,23 +4,30 @@
 #include "kernels/transport/stretched_place.h"
 
 // The largest angle, in radians, between the last directions of a part for which D' predicts them. It excludes the
-// critical angle, too. Beyond it all wavelengths of a part end where its leader does.
-#define EYE_SWEEP_WIDEST 0.5f
+// critical angle, too. Beyond it all wavelengths of a part are taken to end where its leader does; of caustics, which are
+// narrow, its leader has its own.
+#define EYE_SWEEP_WIDEST 0.25f
 
 // By how much s at a wavelength is larger than the leader's.
 static inline float beyond_leader(const World* world, const Band* band, int wavelength) {
   return world->stretch_place[wavelength].x - world->stretch_place[band->own.wavelengths.x].x;
 }
 
-// Whether a path's end is swept over its part of the spectrum: light of other wavelengths ends elsewhere.
-static inline bool is_swept(const World* world, const Path* path, const Band* band) {
-  if (!NEPHROID_DIFFERENTIALS || band->size == 0.0f || is_unsplit(&path->throughput, band)) return false;
+// How the wavelengths of a path's part of the spectrum end: together, each at a place of its own that is known, or
+// elsewhere than the leader.
+#define ENDS_TOGETHER 0
+#define ENDS_SWEPT 1
+#define ENDS_APART 2
+
+static inline int ends_of_band(const World* world, const Path* path, const Band* band) {
+  if (!NEPHROID_DIFFERENTIALS || band->size == 0.0f || is_unsplit(&path->throughput, band)) return ENDS_TOGETHER;
   const int4 w = band->own.wavelengths;
   const float farthest =
       fmax(fabs(beyond_leader(world, band, w.y)),
            fmax(fabs(beyond_leader(world, band, w.z)), fabs(beyond_leader(world, band, w.w))));
   const float turn = farthest * length(path->differential.direction);
-  return turn <= EYE_SWEEP_WIDEST && turn + farthest * length(path->differential.position) > 0.0f;
+  if (!(turn <= EYE_SWEEP_WIDEST)) return ENDS_APART;
+  return turn + farthest * length(path->differential.position) > 0.0f ? ENDS_SWEPT : ENDS_TOGETHER;
 }
 
 // The quarter of a band that its wavelength number i stands for: its part of the spectrum, and that one's weight.

@@ -43,7 +43,9 @@ kernel void look(global const int* receiver_table, global const Place* places, u
   const Receivers on = receivers_of(receiver_table);
   const Place place = places[i];
   const Surface surface = surface_of(&place);
-  out[i].xyz = look_at_receiver(&on, &surface, 1.0f, place.a.xyz, place.b.xyz, (float2)(0.5f), totals, on.layers);
+  const float weight = 1.0f;
+  out[i].xyz =
+      look_at_receiver(&on, &surface, 1.0f, place.a.xyz, place.b.xyz, (float2)(0.5f), totals, 1, &weight).caustic;
 }
 )";
 
@@ -59,7 +61,7 @@ public:
   explicit Floor(const std::vector<shared::DeviceLook>& looks, float turn = 0, float edge = 2.002f)
       : turn_(turn), trees_(photons::make_pages(looks, 6, 1000)),
         table_(kernels().context(), "receivers",
-               photons::receiver_table({{{{-edge / 2, -edge / 2, -edge / 2}, 1 / edge, 0, 1}}, 6}, trees_, 1)),
+               photons::receiver_table({{{{-edge / 2, -edge / 2, -edge / 2}, 1 / edge, 0, 1}}, 6}, trees_, {})),
         sums_(kernels().context(), "sums", 3 * PAGE_TEXELS * trees_.pages.size()),
         totals_(kernels().context(), "totals", 3 * PAGE_TEXELS * trees_.pages.size()) {
     sums_.fill_zero();
@@ -120,8 +122,10 @@ private:
               {"sums", sums_},
               {"totals", totals_},
               {"film_half", 0u},
+              {"kind", 0},
               {"scale", 1.0f},
-              {"part", 1.0f}});
+              {"part", 1.0f},
+              {"undivided_only", 0}});
     const std::vector<std::uint32_t>& first = trees_.first_pages;
     for (std::size_t level = first.size() - 1; level-- > 0;) {
       const std::uint32_t count = first[level + 1] - first[level];
@@ -129,6 +133,7 @@ private:
               {{"receiver_table", table_},
                {"totals", totals_},
                {"film_half", 0u},
+               {"kind", 0},
                {"first", first[level]},
                {"count", count}});
     }

@@ -54,6 +54,7 @@ TEST(Previews, AreWholeAndGetBetter) {
 // is to spare.
 TEST(Previews, ARunMayHaveNoPhotonsForThem) {
   preset::Preset p = seen_through_glass();
+  spectral::settings(p).estimator = photons::Settings::Estimator::points;
   spectral::settings(p).photons_per_pass = 1024;
   const auto job = test::job_as_it_is(p);
   job->advance();

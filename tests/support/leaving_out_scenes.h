@@ -117,7 +117,7 @@ inline std::vector<Omission> omissions() {
   slab.scene.objects[0].shape = box(1, 0.4, 1);
   return {{"direct", &L::direct, no_floor},
           {"photons", &L::photons, no_glass},
-          {"photon_maps", &L::photon_maps, no_glass_seen},
+          {"light_on_receivers", &L::light_on_receivers, no_glass_seen},
           {"stray_photons", &L::stray_photons, close_light, false},
           {"unreached_targets", &L::unreached_targets, spot_scene(40), false},
           {"dark_lights", &L::dark_lights, dark_lights_scene()},

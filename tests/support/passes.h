@@ -50,6 +50,23 @@ inline std::vector<Estimate> render_passes(const preset::Preset& preset,
   return step_passes(*job_of(preset), [&](job::Job& job) { return figures(job.snapshot()); });
 }
 
+/// The same of several whole runs, each with a seed of its own: for passes that see what those before have left.
+inline std::vector<Estimate> render_seeds(preset::Preset preset, int seeds,
+                                          const std::function<std::vector<double>(const job::Snapshot&)>& figures) {
+  std::vector<Estimate> estimates;
+  for (int run = 0; run < seeds; ++run, ++preset.seed) {
+    const std::vector<double> own = figures(render(preset));
+    estimates.resize(own.size());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const double off = own[i] - estimates[i].mean;
+      estimates[i].mean += off / (run + 1);
+      estimates[i].variance += off * (own[i] - estimates[i].mean) / (double(seeds) * (seeds - 1));
+      estimates[i].degrees = seeds - 1;
+    }
+  }
+  return estimates;
+}
+
 /// The chance that an estimate is at least so far from the truth, after Student with Bernstein's bound; bias: what it
 /// may be off by besides.
 inline double p_value(const Estimate& e, double truth, double bias = 0) {

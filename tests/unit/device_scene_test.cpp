@@ -144,23 +144,6 @@ TEST(RunTables, RefuseMoreMediaThanAPathCanCarry) {
   EXPECT_THAT(refusal(), StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
 }
 
-TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass) {
-  const auto paths = [](const preset::Preset& p) { return tables_of(p).eye_paths; };
-  preset::Shape ball{.radius = 1};
-  preset::Preset p = scene_with(ball, glass(1.5));
-  p.scene.camera = {.position = {0, 0, 4}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {128, 128}};
-  spectral::settings(p).photons_per_pass = 1 << 17;
-  // Its outline is a disc of radius 1 / sqrt(4^2 - 1) in a square of side 2.
-  const double share = M_PI / 15 / 4;
-  EXPECT_NEAR(paths(p), (1 << 17) / (3 * 128 * 128 * share), 3);
-  p.scene.camera.position = {0, 0, 0.5};
-  EXPECT_EQ(paths(p), 2u) << "all pixels look out of the glass";
-  spectral::settings(p).photons_per_pass = 1 << 23;
-  EXPECT_EQ(paths(p), 64u);
-  p = scene_with({}, white());
-  EXPECT_EQ(paths(p), 1u);
-}
-
 bool planned_to_run(const plan::Plan& plan, const std::string& name, std::string* reason = nullptr) {
   for (const plan::Decision& pass : plan.decisions)
     if (pass.name == name) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/maps/photon_map.h"
 
-#include "photons/maps/eye_paths.h"
-#include "photons/pixel_surfaces.h"
 #include "tracing/scales.h"
 
 #include <fmt/format.h>
@@ -22,51 +20,6 @@ std::uint32_t bucket_mask(std::uint32_t slots) { return std::bit_ceil(std::max(s
 
 /// Kernels read eight photons at a time, up to seven beyond the last, where eight stand that match no search.
 std::uint32_t stride(std::uint32_t slots) { return (slots + 15) / 8 * 8; }
-
-/// The fraction of the pixels that show glass or a mirror first, estimated from some four thousand of them.
-double bent_share(const scene::Scene& scene, const scene::Bvh& bvh) {
-  if (!scene.camera.inside.empty()) return 1;
-  const int width = scene.camera.width, height = scene.camera.height,
-            step = std::max(1, static_cast<int>(std::sqrt(width * 1.0 * height) / 64));
-  int bent = 0, rays = 0;
-  for (int row = step / 2; row < height; row += step)
-    for (int column = step / 2; column < width; column += step, ++rays) {
-      const int object = surfaces_of_pixel(scene, bvh, scene.camera, column, row, 1).first.object;
-      bent += object >= 0 && is_specular(material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type);
-    }
-  return static_cast<double>(bent) / rays;
-}
-
-/// The width of a pixel at the distance of the scene's middle.
-double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds) {
-  const double distance =
-      camera.orthographic ? 1 : std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
-  return 2 * distance * camera.tan_y / camera.height;
-}
-
-/// The plan's warning about a spectral.sppm.radius that loses the caustics, or an empty string. Such a radius is wider
-/// than 32 pixels or than the whole scene, or below 1/16 pixel, where a pass with as many photons as pixels finds one
-/// in some hundred pixels. It also warns of an alpha that shrinks the radius so far at a pixel's first photons.
-std::string map_radius_note(const Settings& settings, const scene::Scene& scene) {
-  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha,
-               shrunk = radius * std::sqrt(alpha);
-  const scene::Sphere bounds = tracing::scene_bounds(scene);
-  const double pixel = pixel_width(scene.camera, bounds), least = pixel / 16;
-  if (settings.estimator == Settings::Estimator::sppm && radius >= least && shrunk < least)
-    return fmt::format("spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first "
-                       "photons, and hardly another one "
-                       "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
-                       alpha, radius / pixel, shrunk / pixel);
-  if (!settings.sppm.radius) return "";
-  const auto note = [&](const char* consequence) {
-    return fmt::format(
-        "spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out",
-        radius, radius / pixel, consequence, 2 * pixel);
-  };
-  if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
-    return note("caustics are blurred away, and gathering is slow");
-  return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
-}
 
 } // namespace
 
@@ -116,34 +69,16 @@ void PhotonMap::build(double cell_edge, std::uint32_t slots) {
                 {"slots", slots}});
 }
 
-unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass) {
-  constexpr double most = 64, share_of_work = 1.0 / 3; // a path takes about twice as long as a photon
-  if (!tracing::may_see_glass_or_mirror(scene)) return 1;
-  const double pixels = static_cast<double>(scene.camera.pixels()) * bent_share(scene, bvh);
-  return static_cast<unsigned>(std::clamp(share_of_work * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
-}
-
-PlanPart plan_gathering(const PlanInput& input, plan::Decision pass, std::uint32_t photons) {
-  PlanPart part{.decisions = {std::move(pass)}};
-  if (!part.decisions[0].runs) return part;
-  const std::size_t objects = input.scene.objects.size(), clusters = input.tables.wavelengths.clusters.size();
-  if (2 * clusters * objects > MAX_PHOTON_GROUPS)
-    throw bad_input(Location(input.scene.source) / "scene" / "objects",
-                    fmt::format("{} objects in {} wavelength clusters", objects, clusters),
-                    fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
-                    input.preset.settings.engine() == "spectral"
-                        ? "choose spectral.estimator splat, or a larger threshold_deg"
-                        : "choose fewer objects, or environment.refine false");
-  const std::uint64_t stored = photons * sizeof(shared::StoredPhoton);
-  part.buffers = {{"photons on surfaces", stored},
-                  {"photon grid", PhotonMap::bytes(photons) - stored},
-                  {"visible points", EyePaths::bytes(input.tables.camera)}};
-  if (const std::string note = map_radius_note(input.settings, input.scene); !note.empty()) part.notes = {note};
-  return part;
+double middle_pixel_width(const scene::Scene& scene) {
+  const scene::Camera& camera = scene.camera;
+  const scene::Sphere bounds = tracing::scene_bounds(scene);
+  const double distance =
+      camera.orthographic ? 1 : std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius);
+  return 2 * distance * camera.tan_y / camera.height;
 }
 
 double first_map_radius(const Settings& settings, const scene::Scene& scene) {
-  return settings.sppm.radius ? *settings.sppm.radius : 2 * pixel_width(scene.camera, tracing::scene_bounds(scene));
+  return settings.sppm.radius ? *settings.sppm.radius : 2 * middle_pixel_width(scene);
 }
 
 std::string map_radius(const Settings& settings, const scene::Scene& scene) {

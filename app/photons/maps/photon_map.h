@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons on surfaces and the grid that finds those near a point (kernels/photons/photon_map.h, grid.cl). Also what
-// MapStage and SppmStage share: the memory, and the radius in which photons are gathered.
+// Photons on surfaces, the grid that finds those near a point (kernels/photons/photon_map.h, grid.cl), and the radius
+// in which they are gathered.
 #pragma once
 #include "compute/compute.h"
 #include "kernels/photons/photon_map_types.h"
@@ -42,17 +42,11 @@ private:
   shared::PhotonGrid grid_{};
 };
 
-/// Paths from the eye of a pixel in a pass of MapStage, 1..64. Those that meet glass or a mirror first are a third as
-/// many as photons. So neither kind takes most of the time or causes most of the noise.
-unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass);
-
-/// The plan of a stage that gathers `photons` photons at a time, where `pass` runs. Throws bad_input at
-/// FILE#/scene/objects where photons cannot tell so many objects apart in so many clusters.
-PlanPart plan_gathering(const PlanInput& input, plan::Decision pass, std::uint32_t photons);
-
 /// spectral.sppm.radius, in scene units. By default it is twice the width of a pixel at the distance of the scene's
 /// middle (at a quarter of the scene's radius for a camera that is nearer).
 double first_map_radius(const Settings& settings, const scene::Scene& scene);
+/// The width of a pixel at that distance, in scene units.
+double middle_pixel_width(const scene::Scene& scene);
 /// The first radius as the plan states it.
 std::string map_radius(const Settings& settings, const scene::Scene& scene);
 

@@ -5,7 +5,6 @@
 #include "optics/colour.h"
 #include "photons/effort/emitters.h"
 #include "photons/effort/importance.h"
-#include "photons/maps/eye_paths.h"
 #include "photons/maps/photon_map.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
@@ -30,6 +29,12 @@ struct ClusterRun {
   compute::Buffer<std::int64_t> energy;                ///< [OUTCOME_COUNT] quanta, over the run's iterations
 };
 
+/// About as many visible points as make work for a slice.
+std::size_t visible_points(const shared::DeviceCamera& camera) {
+  return std::min<std::size_t>(1 << 16,
+                               static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+}
+
 /// The photons of an iteration of a cluster.
 struct ClusterPhotons {
   compute::Buffer<shared::DeviceEmitter> emitters; ///< one a light
@@ -43,11 +48,15 @@ public:
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
         random_(settings.effort == Settings::Effort::random), alpha_(settings.sppm.alpha),
         first_radius_(first_map_radius(settings, scene)), map_(world.context, photons_, world.defines),
-        eye_(world, EyePaths::Pixels::all), unused_(world.context, "unused", 0), no_guide_(world.context, "unused", 0) {
+        points_(world.context, "visible points", visible_points(world.tables.camera)),
+        pixels_(world.pixels.count, 1024, static_cast<std::int64_t>(points_.size())),
+        unused_(world.context, "unused", 0), no_guide_(world.context, "unused", 0) {
     compute::Defines defines = world.photon_defines();
     defines["NEPHROID_SPLAT"] = std::to_string(0);
     defines["NEPHROID_STORE"] = std::to_string(1);
+    defines["NEPHROID_RECEIVERS"] = std::to_string(0);
     send_ = compute::Program(world.context, "photons/photons.cl", defines).kernel("photons");
+    view_ = compute::Program(world.context, "photons/view.cl", world.eye_defines()).kernel("view");
     const compute::Program gather(world.context, "photons/gather.cl", world.defines);
     gather_ = gather.kernel("gather_to_statistics");
     start_ = gather.kernel("start_statistics");
@@ -68,8 +77,8 @@ public:
   void warm_up(const Communicator& /*communicator*/) override {
     send_photons(0, {});
     map_.build(first_radius_, 0);
-    eye_.warm_up();
-    gather_photons(eye_.points(), 0, 0, 0, 1);
+    see(0, 0, 0, 0);
+    gather_photons(0, 0, 0, 1);
   }
 
   bool advance(std::int64_t pass) override {
@@ -102,7 +111,7 @@ public:
       const bool in_hand = !done && (random_ || run == at_.cluster);
       // Pixels before the split have had the current iteration.
       const std::uint32_t split = done || (!random_ && run < at_.cluster) ? pixel_count()
-                                  : in_hand                               ? static_cast<std::uint32_t>(eye_.done())
+                                  : in_hand                               ? static_cast<std::uint32_t>(pixels_.done())
                                                                           : 0;
       add_radiance_.run(pixel_count(), 64,
                         {{"statistics", runs_[static_cast<std::size_t>(run)].statistics},
@@ -145,7 +154,7 @@ public:
   void serialize(tracing::Archive& archive) override {
     archive.value(at_);
     slices_.serialize(archive);
-    eye_.serialize(archive);
+    pixels_.serialize(archive);
     archive.joined(map_.stored());
     for (ClusterRun& run : runs_) {
       archive.owned(run.statistics, own_pixels(), 1);
@@ -236,16 +245,17 @@ private:
                  {"moments", unused_},
                  {"guide_moments", unused_},
                  {"guide", no_guide_},
-                 {"stored", map_.stored()}});
+                 {"stored", map_.stored()},
+                 {"receiver_table", no_table_},
+                 {"light", unused_}});
   }
 
   /// items is the number of work items, at least one; the first `count` gather.
-  void gather_photons(const compute::Buffer<shared::VisiblePoint>& points, std::uint32_t first_pixel,
-                      std::uint32_t count, int cluster, std::size_t items) {
+  void gather_photons(std::uint32_t first_pixel, std::uint32_t count, int cluster, std::size_t items) {
     const double weight = random_ ? cluster_count() : 1;
     const double unit = weight / (senders_[static_cast<std::size_t>(cluster)].photon_scale * world_.tables.power_unit);
     gather_.run(items, 64, map_.arguments(),
-                {{"points", points},
+                {{"points", points_},
                  {"statistics", run_of(cluster).statistics},
                  {"first_pixel", first_pixel},
                  {"count", count},
@@ -265,11 +275,20 @@ private:
     if (!sorted_)
       map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
     sorted_ = true;
-    return eye_.advance(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration),
-                        {1, static_cast<std::uint32_t>(iteration), 0}, at_.cluster,
-                        [&](std::uint32_t first_pixel, std::uint32_t count) {
-                          gather_photons(eye_.points(), first_pixel, count, at_.cluster, count);
-                        });
+    return pixels_.advance(world_.context.communicator(), [&](std::uint32_t first_pixel, std::uint32_t count) {
+      see(iteration, at_.cluster, first_pixel, count);
+      gather_photons(first_pixel, count, at_.cluster, count);
+      world_.context.finish();
+    });
+  }
+
+  /// Finds the visible points of an iteration.
+  void see(std::int64_t iteration, int cluster, std::uint32_t first_pixel, std::uint32_t count) {
+    const shared::DeviceViewLaunch launch{seed_of(cluster), static_cast<std::uint32_t>(iteration),
+                                          cluster,          static_cast<int>(world_.tables.objects.size()),
+                                          first_pixel,      count};
+    world_.queue(view_, std::max(count, 1u), 64,
+                 {{"points", points_}, {"camera", world_.tables.camera}, {"launch", launch}});
   }
 
   StageContext& world_;
@@ -277,16 +296,42 @@ private:
   bool random_;
   double alpha_, first_radius_;
   PhotonMap map_;
-  EyePaths eye_;
-  compute::Kernel send_, gather_, start_, add_radiance_;
+  compute::Buffer<shared::VisiblePoint> points_;
+  tracing::PixelSlices pixels_;
+  compute::Kernel send_, view_, gather_, start_, add_radiance_;
   std::vector<ClusterPhotons> senders_; ///< [cluster]
   std::vector<ClusterRun> runs_;
-  compute::Buffer<std::int64_t> unused_; ///< argument for what the photon kernel does not do here
-  compute::Buffer<float> no_guide_;      ///< likewise
+  compute::Buffer<std::int64_t> unused_;                       ///< argument for what the photon kernel does not do here
+  compute::Buffer<float> no_guide_;                            ///< likewise
+  compute::Buffer<int> no_table_{world_.context, "unused", 0}; ///< likewise
   tracing::PhotonSlices slices_;
   Position at_;
   bool sorted_ = false; ///< whether the grid has this iteration's photons
 };
+
+/// The plan's warning about a spectral.sppm.radius that loses the caustics, or an empty string. Such a radius is wider
+/// than 32 pixels or than the whole scene, or below 1/16 pixel, where a pass with as many photons as pixels finds one
+/// in some hundred pixels. It also warns of an alpha that shrinks the radius so far at a pixel's first photons.
+std::string map_radius_note(const Settings& settings, const scene::Scene& scene) {
+  const double radius = first_map_radius(settings, scene), alpha = settings.sppm.alpha,
+               shrunk = radius * std::sqrt(alpha);
+  const scene::Sphere bounds = tracing::scene_bounds(scene);
+  const double pixel = middle_pixel_width(scene), least = pixel / 16;
+  if (radius >= least && shrunk < least)
+    return fmt::format("spectral.sppm.alpha: {:.3g} shrinks a radius from {:.3g} to {:.3g} pixels at its first "
+                       "photons, and hardly another one "
+                       "lies so near: caustics grow darker from pass to pass; choose 0.667 or so",
+                       alpha, radius / pixel, shrunk / pixel);
+  if (!settings.sppm.radius) return "";
+  const auto note = [&](const char* consequence) {
+    return fmt::format(
+        "spectral.sppm.radius: {} units are {:.3g} pixels: {}; choose about {:.3g}, two pixels, or leave it out",
+        radius, radius / pixel, consequence, 2 * pixel);
+  };
+  if (radius > 32 * pixel || (radius > bounds.radius && radius > 2 * pixel))
+    return note("caustics are blurred away, and gathering is slow");
+  return radius < least ? note("hardly a photon lies so near, and caustics are black but for rare bright dots") : "";
+}
 
 plan::Decision sppm_decision(const PlanInput& input) {
   const char* const name = "photon maps";
@@ -299,15 +344,23 @@ plan::Decision sppm_decision(const PlanInput& input) {
 }
 
 PlanPart plan_sppm(const PlanInput& input) {
-  PlanPart part =
-      plan_gathering(input, sppm_decision(input), static_cast<std::uint32_t>(input.settings.photons_per_pass));
-  // A pass gives one cluster after the other its turn, with one wavelength each.
-  part.defines = {{"NEPHROID_PASS_BANDS", "1"}};
+  PlanPart part{.decisions = {sppm_decision(input)}};
   if (!part.decisions[0].runs) return part;
-  const std::uint64_t runs =
-      input.settings.effort == Settings::Effort::random ? 1 : input.tables.wavelengths.clusters.size();
-  part.buffers.push_back({"statistics of pixels", runs * input.pixels() * sizeof(shared::PixelStatistics)});
-  part.buffers.push_back({"radiance", 3 * input.pixels() * sizeof(float)});
+  const std::size_t objects = input.scene.objects.size(), clusters = input.tables.wavelengths.clusters.size();
+  if (2 * clusters * objects > MAX_PHOTON_GROUPS)
+    throw bad_input(Location(input.scene.source) / "scene" / "objects",
+                    fmt::format("{} objects in {} wavelength clusters", objects, clusters),
+                    fmt::format("photon maps tell {} surfaces in clusters apart", int{MAX_PHOTON_GROUPS}),
+                    "choose another spectral.estimator, or a larger threshold_deg");
+  const auto photons = static_cast<std::uint32_t>(input.settings.photons_per_pass);
+  const std::uint64_t stored = photons * sizeof(shared::StoredPhoton),
+                      runs = input.settings.effort == Settings::Effort::random ? 1 : clusters;
+  part.buffers = {{"photons on surfaces", stored},
+                  {"photon grid", PhotonMap::bytes(photons) - stored},
+                  {"visible points", visible_points(input.tables.camera) * sizeof(shared::VisiblePoint)},
+                  {"statistics of pixels", runs * input.pixels() * sizeof(shared::PixelStatistics)},
+                  {"radiance", 3 * input.pixels() * sizeof(float)}};
+  if (const std::string note = map_radius_note(input.settings, input.scene); !note.empty()) part.notes = {note};
   return part;
 }
 

@@ -11,7 +11,7 @@ namespace nephroid::photons {
 namespace {
 
 /// Slabs of an object that has depth. Two surfaces in one slab that face the same way share their texels.
-constexpr int slabs_of_depth = 32;
+constexpr int slabs_of_depth = 16;
 
 /// Looks on a page, and the page.
 struct Asked {

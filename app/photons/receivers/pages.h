@@ -28,7 +28,7 @@ struct PageTrees {
 
 /// How many paths must ask for finer texels than a page has, for it to be divided. Fewer are at a fold of what the eye
 /// sees through glass, where there is no end of asking.
-inline constexpr std::size_t least_looks = 8;
+inline constexpr std::size_t least_looks = 24;
 
 /// looks: their charts are not NO_PAGE. Trees of at most so many pages, at least one a chart that is looked at; those
 /// that more paths ask for come first.

@@ -7,49 +7,66 @@
 #include "tracing/archive.h"
 #include "tracing/world.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace nephroid::photons {
 
-/// Layers of light, each of some of the clusters, which what parts wavelengths on the eye's side shows apart.
-int receiver_layers(std::size_t clusters);
-/// How many pages there may be for so many pixels that show glass or a mirror, and the bytes of each in all layers.
-std::size_t most_pages(std::size_t glass_pixels, int layers, unsigned halves);
-std::uint64_t page_bytes(int layers, unsigned halves);
+/// Light that is kept and found apart.
+enum class KindOfLight { caustic, indirect };
+
+/// The most bytes that a scene's light on receivers takes. kinds: 1, caustics alone, or 2.
+std::uint64_t most_receiver_bytes(const scene::Scene& scene, const tracing::WavelengthTables& tables, bool jitter,
+                                  unsigned halves, int kinds);
+
+/// How light is kept apart by its wavelengths, for what parts them on the eye's side: whole clusters where there are
+/// enough, or runs of their members.
+struct LightLayers {
+  std::vector<int> first_members{0, 0};                                 ///< [layer + 1], see DeviceReceiverTable
+  std::vector<float> places{0, 1};                                      ///< [layer + 1]
+  std::vector<int> of_wavelengths = std::vector<int>(WAVELENGTH_COUNT); ///< [wavelength]: its layer
+
+  int count() const { return static_cast<int>(first_members.size()) - 1; }
+};
+
+/// At most so many layers. jitter: paths have one wavelength of their cluster.
+LightLayers make_layers(const tracing::WavelengthTables& tables, bool jitter, std::size_t most);
+
+/// Charts and pages as kernels read them (DeviceReceiverTable).
+std::vector<int> receiver_table(const Charts& charts, const PageTrees& trees, const LightLayers& layers);
 
 class ReceiverLight {
 public:
-  /// looks: those of paths from the eye; NO_PAGE charts count for nothing. pages: at most so many.
-  ReceiverLight(tracing::World& world, Charts charts, std::vector<shared::DeviceLook> looks, std::size_t pages,
-                int layers, unsigned halves, double quanta_per_watt);
+  ReceiverLight(tracing::World& world, const Charts& charts, PageTrees trees, const LightLayers& layers,
+                unsigned halves, int kinds, double quanta_per_watt);
 
   const compute::Buffer<int>& table() const { return table_; }
   compute::Buffer<std::int64_t>& sums() { return sums_; }
   const compute::Buffer<float>& totals() const { return totals_; }
   double quanta_per_watt() const { return quanta_per_watt_; }
-  bool has_light() const { return has_light_; }
 
-  /// Makes `part` of the light that is found that of sums(), times scale, which adding them leaves as they are.
-  void take(double scale, double part);
+  /// Makes `part` of the caustics that are found those of sums(), times scale, and leaves sums() as it is.
+  void take_tiles(double scale, double part) { take(KindOfLight::caustic, {scale, scale}, part, false); }
+  /// The same of photons that are points: makes all of a kind's light that of sums(), over how often each half of them
+  /// had its part of the power.
+  void take_points(KindOfLight kind, std::array<double, 2> count);
   void clear();
   void serialize(tracing::Archive& archive);
 
 private:
+  void take(KindOfLight kind, std::array<double, 2> scale, double part, bool are_points);
+
   tracing::World& world_;
-  Charts charts_;
   PageTrees trees_;
   int layers_;
   unsigned halves_;
   double quanta_per_watt_; ///< of what is found
-  bool has_light_ = false; ///< whether take() was called
   compute::Buffer<int> table_;
-  compute::Buffer<std::int64_t> sums_; ///< quanta of all photons of this rank: [half][page][layer][PAGE_TEXELS][3]
-  compute::Buffer<float> totals_;      ///< as sums_
+  compute::Buffer<std::int64_t>
+      sums_;                      ///< quanta of all photons of this rank: [half][page][kind][layer][PAGE_TEXELS][3]
+  compute::Buffer<float> totals_; ///< as sums_
   compute::Kernel take_, sum_;
 };
-
-/// The table of receivers without pages, by which paths from the eye ask for them.
-std::vector<int> receiver_table(const Charts& charts, const PageTrees& trees, int layers);
 
 } // namespace nephroid::photons

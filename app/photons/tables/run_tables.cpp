@@ -5,7 +5,6 @@
 #include "photons/clusters/scene_clusters.h"
 #include "photons/effort/effort.h"
 #include "photons/effort/emitters.h"
-#include "photons/maps/photon_map.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
 
@@ -95,7 +94,6 @@ RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, c
                                   static_cast<unsigned>(settings.photons_per_pass) / tables.batches);
   tables.importance = std::move(shares.importance);
   tables.photons_per_batch = count_photons(tables.emitters);
-  tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass());
   tables.scene.max_surfaces = settings.max_surfaces;
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   set_scales(scene, pixel_samples(settings, scene), tables);

@@ -13,7 +13,6 @@ struct RunTables : tracing::SceneTables {
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one batch, allocated to lights and clusters
   unsigned photons_per_batch = 0;              ///< photons of a batch: at least one for each emitter
   unsigned batches = 1;                        ///< batches of a pass: fair samples of its splatted photons
-  unsigned eye_paths = 1;                      ///< paths of a pixel in a pass that gather photons (maps/photon_map.h)
   unsigned photons_per_pass() const { return batches * photons_per_batch; }
   bool has_even_sky = false; ///< whether photons of the environment are of its peaks alone (kernels/lights/sky.h), and
                              ///< even_sky_stage brings the rest
