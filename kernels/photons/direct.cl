@@ -132,8 +132,8 @@ IN_PLACE Shown follow(const World* world, const EyeSample* sample, const Path* p
     } else if (follow_branch(world, &eye, &first, &at, &last) != WALK_AT_BASE || (after_base && last == 0))
       continue;
     const bool shines = !eye.branch.by_microfacets && dot(eye.branch.path.direction, at.surface.geometric) < 0.0f;
-    const Shown at_end = shade_end(world, sample, &eye.branch.path, &at, shines, last > 0, eye.branch.spread, band, eye.sample,
-                                   paths, sample->pixel + 0x9e3779b9u * eye.met);
+    const Shown at_end = shade_end(world, sample, &eye.branch.path, &at, shines, last > 0, eye.branch.spread, band,
+                                   eye.sample, paths, sample->pixel + 0x9e3779b9u * eye.met);
     const float radiance = eye.branch.share * eye.branch.scale;
     shown.direct += radiance * at_end.direct;
     shown.kept.caustic += radiance * at_end.kept.caustic;

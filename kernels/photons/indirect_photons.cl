@@ -140,7 +140,8 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
                                __global const DeviceEmitter* emitters,
                                __global const float* spectrum_cdf, // [light][member of all clusters]: chances
                                volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                               __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
+                               __global const int* receiver_table, // with NEPHROID_RECEIVERS
+                               volatile __global long* light,      // likewise
                                DeviceCamera camera, DevicePhotonLaunch launch) {
   const World world = WORLD;
   const int members = world.tables.cluster_first[scene.cluster_count];

@@ -31,8 +31,8 @@ static inline long squared(float3 xyz, float scale) {
 }
 
 #if NEPHROID_RECEIVERS
-// A photon's light in its layer, as the xyz of its end, which is of all clusters until glass splits it: then that of its
-// own, where that is of one layer.
+// A photon's light in its layer, as the xyz of its end. That is of all clusters until glass splits it; in a layer it is
+// that of its own, where one layer has all of it, or of its own wavelength.
 static inline float3 light_of_layer(const World* world, const Receivers* on, Source source, const PhotonEnd* end,
                                     const Path* path, const Band* band) {
   if (!is_unsplit(&path->throughput, band) || on->layers == 1) return end->xyz;

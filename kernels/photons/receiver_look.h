@@ -17,8 +17,8 @@ typedef struct {
   float2 place; // in the piece
 } EyeFootprint;
 
-// place, edges: of the sample in its pixel and of its piece. eye: where the path has begun. spread: of EyeBranch; chance
-// has chosen one way of many, so the footprint has the way's place in its middle.
+// place, edges: of the sample in its pixel and of its piece. eye: where the path has begun. spread: of EyeBranch; where
+// chance has chosen one way of many, that one's place is in the middle of the footprint.
 static inline EyeFootprint eye_footprint(const DeviceCamera* eye, const Path* path, const Surface* surface,
                                          float spread, float2 place, float2 edges) {
   const float way = dot(surface->position - path->origin, path->direction),

@@ -4,8 +4,8 @@
 #include "kernels/transport/stretched_place.h"
 
 // The largest angle, in radians, between the last directions of a part for which D' predicts them. It excludes the
-// critical angle, too. Beyond it all wavelengths of a part are taken to end where its leader does; of caustics, which are
-// narrow, its leader has its own.
+// critical angle, too. Beyond it all wavelengths of a part are taken to end where its leader does. Caustics are narrow:
+// of these the leader finds its own light alone.
 #define EYE_SWEEP_WIDEST 0.25f
 
 // By how much s at a wavelength is larger than the leader's.
