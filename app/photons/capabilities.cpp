@@ -53,7 +53,7 @@ constexpr Demand plastic{"plastic", of_materials<scatter::has_coat>};
 constexpr Demand texture{"a texture", of_materials<scatter::has_pictures>};
 constexpr Demand shining{"an object that shines", object_shines};
 constexpr Demand sky{"an environment that lights", environment_lights};
-constexpr Demand photon_maps{"the estimator sppm", of_estimator<Estimator::sppm>};
+constexpr Demand sppm{"the estimator sppm", of_estimator<Estimator::sppm>};
 constexpr Demand tiles{"the estimator tiles", of_estimator<Estimator::tiles>};
 constexpr Demand lens{"a camera with a lens, a shift or parallel rays",
                       [](const Settings&, const scene::Scene& scene) { return !scene.camera.is_plain(); }};
@@ -80,7 +80,7 @@ constexpr Limit limits_of_layers[] = {{coating, "splits the wavelengths of a clu
                                       {lens, "sees otherwise than a pinhole, from which layers are seen"},
                                       {sky, "has a spectrum for each texel, and a layer is of one light's"},
                                       {walls, "is light that met several reflectors, and a layer is of one"},
-                                      {photon_maps, "adds up colours, not layers"},
+                                      {sppm, "adds up colours, not layers"},
                                       {tiles, "sweeps a part of the wavelengths, and a layer holds whole clusters"},
                                       {allotted, "goes by the present light, and layers are for lights to come"}};
 constexpr Limit limits_of_tiles[] = {{coating, "reflects each wavelength otherwise"},
@@ -90,7 +90,7 @@ constexpr Limit limits_of_tiles[] = {{coating, "reflects each wavelength otherwi
                                      {texture, "has many colours, and a tile has one"},
                                      {whole_clusters, "sends a cluster one way, and tiles sweep it"}};
 constexpr Limit limits_of_whole_clusters[] = {{coating, "reflects each wavelength otherwise"}};
-constexpr Limit limits_of_variance[] = {{photon_maps, "has no film that all photons share"},
+constexpr Limit limits_of_variance[] = {{sppm, "has no film that all photons share"},
                                         {tiles, "sends its photons on lattices"}};
 constexpr Limit limits_of_random[] = {{one_film, "has no pass of its own for each cluster"}};
 

@@ -74,7 +74,7 @@ public:
   virtual bool add_spectrum(std::int64_t /*passes*/, bool /*done*/, job::PixelSpectrum& /*to*/) { return false; }
   /// Adds where the power of its photons went in the same passes, if it has counters of its own.
   virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
-  /// Whether its noise is its own; photons, and maps of them, share that of the caustic layer.
+  /// Whether its noise is its own; photons share that of the caustic layer.
   virtual bool samples_pixels() const { return false; }
   /// The work of its samples until now, in that of a photon.
   virtual double work() const { return 0; }

@@ -63,7 +63,8 @@ struct StageContext : tracing::World {
     tracing::add_layer(layer, {context.all_reduced_sum(seen.film), tables.direct_scale * white, seen.samples}, picture);
   }
   void add_seen_preview(const SeenLight& seen, const char* layer, job::Picture& picture) const {
-    const auto samples = [](std::size_t) { return std::array{1.0, 1.0}; };
+    const double second = preview.batches > 1 ? 1 : 0; // a half without photons has no light
+    const auto samples = [second](std::size_t) { return std::array{1.0, second}; };
     tracing::add_layer(layer, {context.all_reduced_sum(seen.preview), tables.direct_scale * white, samples}, picture);
   }
   /// Whether paths from the eye are to see what a pass has left on receivers: to sum up all pages takes as long as some

@@ -167,10 +167,7 @@ private:
       sums_[i] += part * added[i];
     }
     if (world_.halves == 2 && batches_ > 0) estimate_bias(added);
-    if (world_.receivers) {
-      world_.receivers->take_tiles(1 / growth(), part);
-      world_.receivers->sums().fill_zero();
-    }
+    if (world_.receivers) world_.receivers->take_tiles(1 / growth(), part);
     const std::vector<std::int64_t> quanta = world_.context.all_reduced_sum(energy_);
     for (std::size_t i = 0; i < quanta.size(); ++i) outcomes_[i] += quanta[i];
     energy_.fill_zero();

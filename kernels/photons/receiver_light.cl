@@ -48,6 +48,14 @@ kernel void take_light(global const int* receiver_table, global const long* sums
   vstore3(before + part * (light - before), at, totals);
 }
 
+// Clears a kind of light in all pages.
+kernel void clear_light(global const int* receiver_table, global long* sums, uint film_half, int kind) {
+  const Receivers on = receivers_of(receiver_table);
+  const LightItem item = light_item(&on, 0u);
+  if (item.page < (uint)on.page_count)
+    vstore3((long3)(0), texel_of(&on, film_half, kind, item.page, item.layer) + item.texel, sums);
+}
+
 kernel void sum_light(global const int* receiver_table, global float* totals, uint film_half, int kind, uint first,
                       uint count) {
   const Receivers on = receivers_of(receiver_table);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wavelengths of a path. It goes the way of a whole cluster, at the cluster's mean index of refraction (thesis
 // 4.1), which is biased. Or with NEPHROID_JITTER it goes the way of one wavelength that stands for its cluster, which
-// is not. That is drawn for each path; with photon maps a few are drawn for a pass (pass_band.h).
+// is not. That is drawn for each path; with photon maps one is drawn for a pass (pass_band.h).
 //
 // Four wavelengths carry what is left of a path's light (throughput.h), and the first of them leads: the path goes its
 // way. These are hero wavelengths (Wilkie et al. 2014, "Hero Wavelength Spectral Sampling").

@@ -23,7 +23,6 @@
 #define STREAM_SURVEY 24u                // relight_direct.cl, its survey: index is the pixel
 #define STREAM_LENS 25u                  // places on the lens: index is the photon
 #define STREAM_VIEW 32u                  // view.cl, here and below: index is the pixel
-#define STREAM_VIEW_CLUSTER 33u
 #define STREAM_PASS_BAND 34u             // pass_band.h: index is the cluster
 #define STREAM_BAKE 48u                  // environment/bake.cl: iteration is the direction, index the photon
 #define STREAM_SEE 49u                   // environment/see.cl, here and below: index is the pixel

@@ -12,7 +12,7 @@
 #endif
 
 // How many parts there are for a pixel's path `number` in a half of the film: a power of two near the cube root of
-// the number; many where ends are not swept, or do not tell what a coating left of other wavelengths.
+// a quarter of the number; many where ends are not swept, or do not tell what a coating left of other wavelengths.
 static inline uint parts_of_spectrum(uint number) {
   if (!NEPHROID_JITTER) return 1u;
   if (NEPHROID_COATED) return 256u;

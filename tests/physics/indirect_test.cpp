@@ -69,7 +69,7 @@ struct Furnace {
   preset::Vec3 position;
   double glass_radius; // 0: none
   double half_angle_deg = 30;
-  bool window = false;
+  bool window = false, tiles = false;
 };
 
 class DiffuseFurnace : public testing::TestWithParam<Furnace> {};
@@ -96,6 +96,10 @@ TEST_P(DiffuseFurnace, IsEvenlyLit) {
   if (GetParam().window) {
     p.scene.materials["pane"] = glass(1.5);
     p.scene.materials["pane"].thin = true;
+    if (GetParam().tiles) { // whose rounds are apart from what walls send on
+      spectral::settings(p).caustic = true;
+      spectral::settings(p).estimator = photons::Settings::Estimator::tiles;
+    }
     p.scene.objects.push_back(object("window", quad(1.4, 1.4), "pane", at({0, 0, -1.1}, {90, 0, 0})));
   }
   p.scene.camera.position = {0, 0, -0.8};
@@ -136,7 +140,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Furnace{"narrow_spot", preset::Light::Type::spot, {-0.5, 0.5, 0}, 0, 2},
                     Furnace{"area", preset::Light::Type::area, {0, -0.4, 0.6}, 0},
                     Furnace{"in_a_glass_ball", preset::Light::Type::point, {0, 0, 0}, 0.5},
-                    Furnace{"through_a_window", preset::Light::Type::point, {0, 0, 0}, 0.5, 30, true}),
+                    Furnace{"through_a_window", preset::Light::Type::point, {0, 0, 0}, 0.5, 30, true},
+                    Furnace{
+                        "through_a_window_beside_tiles", preset::Light::Type::point, {0, 0, 0}, 0.5, 30, true, true}),
     [](const testing::TestParamInfo<Furnace>& parameter) { return std::string(parameter.param.name); });
 
 // A pencil of light on the middle of a red tile, which lights a green screen at a right angle to it. With P the power

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics that are seen through glass and in mirrors: gathered from photon maps beside points and, everywhere, by
+// Caustics that are seen through glass and in mirrors: found on receivers beside points and, everywhere, by
 // `sppm`; kept on receivers beside tiles. Radiance in closed form, and pictures against those of splats, which have no
 // radius and no bias.
 #include "optics/fresnel.h"

@@ -120,6 +120,27 @@ preset::Object leaning_tile(const std::filesystem::path& folder) {
   return square_with_normals("tile", folder, "vn 1 1 0\nvn 1 1 0\nvn 1 1 0\nvn 1 1 0\n");
 }
 
+// Seen through a window that bends nothing, so that the light is found where it is kept. Runs of other seeds, because
+// passes see what those before have left.
+TEST(SmoothReceiver, LightOnReceiversKnowsTheNormalsToo) {
+  const TemporaryFolder folder;
+  const preset::Object tile = leaning_tile(folder.path());
+  preset::Preset with_plate = lit_receiver(tile, true), without = lit_receiver(tile, false);
+  for (preset::Preset* p : {&with_plate, &without}) {
+    p->scene.camera.fov_deg = 6;
+    p->scene.materials["air"] = glass(1.00001);
+    p->scene.objects.push_back(object("window", box(0.4, 0.4, 0.01), "air", at({0.368, 1.104, 2.3})));
+  }
+  with_plate.stop.passes = 4;
+  spectral::settings(with_plate).estimator = photons::Settings::Estimator::points;
+  const Estimate through = render_seeds(with_plate, 24, blocks_of).back(),
+                 direct = render_passes(without, blocks_of).back();
+  EXPECT_GT(direct.mean, 0);
+  expect_truth("leaning tile through a window, over its direct light", through.mean / through_plate() / direct.mean, 1,
+               tolerance(through) / through.mean + 0.005);
+  EXPECT_LT(tolerance(through) / through.mean, 0.1) << "such a check would see too little";
+}
+
 // Light from straight above meets the tile at cos(45 degrees) by its normals, and at 1 by its facets: that much less is
 // what it sends on to a wall beside it.
 TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals) {

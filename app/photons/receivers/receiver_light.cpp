@@ -65,14 +65,16 @@ LightLayers make_layers(const tracing::WavelengthTables& tables, bool jitter, st
   layers.first_members.clear();
   layers.places.clear();
   for (std::size_t m = 0; m < members; ++m) {
-    while (layers.first_members.size() <= layer_of(m)) {
+    if (m == 0 ||
+        layer_of(m) != layer_of(m - 1)) { // a few lines may leave some without members: these are not numbered
       layers.first_members.push_back(static_cast<int>(m));
       layers.places.push_back(static_cast<float>(places[m]));
     }
-    layers.of_wavelengths[static_cast<std::size_t>(tables.cluster_wavelengths[m])] = static_cast<int>(layer_of(m));
+    layers.of_wavelengths[static_cast<std::size_t>(tables.cluster_wavelengths[m])] =
+        static_cast<int>(layers.places.size()) - 1;
   }
-  layers.first_members.resize(count + 1, static_cast<int>(members));
-  layers.places.resize(count + 1, 1);
+  layers.first_members.push_back(static_cast<int>(members));
+  layers.places.push_back(1);
   return layers;
 }
 
@@ -103,6 +105,18 @@ ReceiverLight::ReceiverLight(tracing::World& world, const Charts& charts, PageTr
   const compute::Program program(world.context, "photons/receiver_light.cl", world.defines);
   take_ = program.kernel("take_light");
   sum_ = program.kernel("sum_light");
+  clear_ = program.kernel("clear_light");
+}
+
+void ReceiverLight::take_tiles(double scale, double part) {
+  take(KindOfLight::caustic, {scale, scale}, part, false);
+  if (trees_.pages.empty()) return;
+  for (unsigned half = 0; half < halves_; ++half)
+    clear_.run(page_texels * static_cast<std::size_t>(layers_) * trees_.pages.size(), 64,
+               {{"receiver_table", table_},
+                {"sums", sums_},
+                {"film_half", half},
+                {"kind", static_cast<int>(KindOfLight::caustic)}});
 }
 
 void ReceiverLight::take_points(KindOfLight kind, std::array<double, 2> count) {

@@ -46,8 +46,8 @@ public:
   const compute::Buffer<float>& totals() const { return totals_; }
   double quanta_per_watt() const { return quanta_per_watt_; }
 
-  /// Makes `part` of the caustics that are found those of sums(), times scale, and leaves sums() as it is.
-  void take_tiles(double scale, double part) { take(KindOfLight::caustic, {scale, scale}, part, false); }
+  /// Makes `part` of the caustics that are found those of sums(), times scale, and clears them there.
+  void take_tiles(double scale, double part);
   /// The same of photons that are points: makes all of a kind's light that of sums(), over how often each half of them
   /// had its part of the power.
   void take_points(KindOfLight kind, std::array<double, 2> count);
@@ -66,7 +66,7 @@ private:
   compute::Buffer<std::int64_t>
       sums_;                      ///< quanta of all photons of this rank: [half][page][kind][layer][PAGE_TEXELS][3]
   compute::Buffer<float> totals_; ///< as sums_
-  compute::Kernel take_, sum_;
+  compute::Kernel take_, sum_, clear_;
 };
 
 } // namespace nephroid::photons
