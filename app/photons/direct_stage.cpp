@@ -148,8 +148,12 @@ plan::Decision receiver_decision(const PlanInput& input) {
   if (!sees)
     return tracing::not_needed(name, input.leave_out.light_on_receivers,
                                "the camera sees no glass and no mirror, so every caustic is splatted");
-  return tracing::needed(name, "what glass and mirrors show of caustics is kept in texels where it falls, and found by "
-                               "paths from the eye");
+  const bool splat = input.settings.estimator == Settings::Estimator::splat;
+  return tracing::needed(
+      name, fmt::format("what glass and mirrors show of {} is kept in texels where it falls, and found by paths from "
+                        "the eye{}",
+                        splat || input.is_sppm() ? "walls that caustics light" : "caustics",
+                        splat ? "; spectral.estimator is splat: caustics themselves are left out there" : ""));
 }
 
 PlanPart plan_receivers(const PlanInput& input) {

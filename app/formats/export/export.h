@@ -29,8 +29,8 @@ struct Receiver {
 std::vector<Receiver> receivers_of(const scene::Scene& scene);
 
 /// The scene with a camera for the light that a receiver gets, not for what an eye sees of it. Where engine 1 renders
-/// that with a white of 1, the layer "caustic" is the irradiance in W/m^2 over pi, as linear sRGB
-/// whose Y has no factor 683. longest: of the picture's edges, in pixels.
+/// that with a white of 1, the layer "caustic" is the irradiance in W/m^2 over pi, as linear sRGB whose Y has no factor
+/// 683. longest: of the picture's edges, in pixels.
 scene::Scene irradiance_view(scene::Scene scene, const Receiver& receiver, int longest);
 
 /// What falls on a receiver through glass and by way of mirrors.
