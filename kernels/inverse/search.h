@@ -87,7 +87,7 @@ static inline Lattice lattice_of(global const DeviceLayout* layout, global const
   }
 #endif
   made.corner = random.xy * made.step + low;
-  made.fine = clamp((int2)(layout->cells_x, layout->cells_y) / LATTICE, 1, MOST_FINE);
+  made.fine = clamp((int2)(layout->cells_x, layout->cells_y) / LATTICE, (int2)(1), (int2)(MOST_FINE));
   made.fine_step = made.step / convert_float2(made.fine);
   return made;
 }

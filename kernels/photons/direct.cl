@@ -77,15 +77,15 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
   return xyz;
 }
 
-// What the surface at a path's end sends back along it. Where the path's wavelengths go different ways, each quarter of
-// its part of the spectrum has a place of its own. number: of the sample's end, so that each has places of lamps of its
-// own. through: the path has met glass or a mirror; without, photons are splatted. spread: of EyeBranch.
-IN_PLACE Shown shade_end(const World* world, const EyeSample* sample, const Path* path, const Interaction* at,
-                         bool shines, bool through, float spread, const Band* band, uint number, uint paths,
-                         uint pixel) {
+// Adds what the surface at a path's end sends back along it, so much of it, to `sum`. Where the path's wavelengths go
+// different ways, each quarter of its part of the spectrum has a place of its own. number: of the sample's end, so that
+// each has places of lamps of its own. through: the path has met glass or a mirror; without, photons are splatted.
+// spread: of EyeBranch.
+IN_PLACE void shade_end(const World* world, const EyeSample* sample, const Path* path, const Interaction* at,
+                        bool shines, bool through, float spread, const Band* band, uint number, uint paths,
+                        uint pixel, float part, Shown* sum) {
   const int ends = ends_of_band(world, path, band);
   const bool swept = ends == ENDS_SWEPT;
-  SET_ASIDE Shown shown = {(float3)(0.0f), {(float3)(0.0f), (float3)(0.0f)}};
 #if NEPHROID_RECEIVERS
   const EyeFootprint footprint = eye_footprint(sample->eye, path, &at->surface, spread, sample->place, sample->edges);
 #endif
@@ -98,30 +98,26 @@ IN_PLACE Shown shade_end(const World* world, const EyeSample* sample, const Path
       move_end(world, path, beyond_leader(world, band, number_of_four_wavelengths(&band->own, i)), &surface, &triangle);
     }
 #if NEPHROID_DIRECT
-    shown.direct += shade(world, path, &surface, triangle, shines, reflector_at(world, &surface, triangle), &quarter,
-                          sample->seed, number, paths, pixel);
+    sum->direct += part * shade(world, path, &surface, triangle, shines, reflector_at(world, &surface, triangle),
+                                &quarter, sample->seed, number, paths, pixel);
 #endif
 #if NEPHROID_RECEIVERS
     if (!through) continue;
-    const LightOfKinds light =
-        swept ? light_of_quarter(world, &sample->receivers, sample->totals, &footprint, path, &surface, band, i)
-              : light_of_end(world, &sample->receivers, sample->totals, &footprint, path, &surface, triangle, band,
-                             ends == ENDS_APART);
-    shown.kept.caustic += light.caustic;
-    shown.kept.indirect += light.indirect;
+    add_light(&sum->kept, part,
+              swept ? light_of_quarter(world, &sample->receivers, sample->totals, &footprint, path, &surface, band, i)
+                    : light_of_end(world, &sample->receivers, sample->totals, &footprint, path, &surface, triangle,
+                                   band, ends == ENDS_APART));
 #endif
   }
-  return shown;
 }
 
-// Follows the branches of path `i` of `paths` of a sample, which has hit `first`, through glass and mirrors. One of all
-// wavelengths (cluster -1) ends at once on that surface, or on its base below a coat. With `after_base` that path has
-// been followed already, and others do not end there.
-IN_PLACE Shown follow(const World* world, const EyeSample* sample, const Path* path, Hit first, const Band* band,
-                      bool after_base, uint i, uint paths) {
+// Follows the branches of path `i` of `paths` of a sample, which has hit `first`, through glass and mirrors, and adds
+// what they show to `sum`. One of all wavelengths (cluster -1) ends at once on that surface, or on its
+// base below a coat. With `after_base` that path has been followed already, and others do not end there.
+IN_PLACE void follow(const World* world, const EyeSample* sample, const Path* path, Hit first, const Band* band,
+                     bool after_base, uint i, uint paths, Shown* sum) {
   Visitor eye;
   begin_branches(&eye, path, band, sample->seed, sample->frame, i, paths, sample->pixel, STREAM_CAMERA);
-  SET_ASIDE Shown shown = {(float3)(0.0f), {(float3)(0.0f), (float3)(0.0f)}};
   do {
     Interaction at;
     int last = 0;
@@ -132,15 +128,10 @@ IN_PLACE Shown follow(const World* world, const EyeSample* sample, const Path* p
     } else if (follow_branch(world, &eye, &first, &at, &last) != WALK_AT_BASE || (after_base && last == 0))
       continue;
     const bool shines = !eye.branch.by_microfacets && dot(eye.branch.path.direction, at.surface.geometric) < 0.0f;
-    const Shown at_end = shade_end(world, sample, &eye.branch.path, &at, shines, last > 0, eye.branch.spread, band,
-                                   eye.sample, paths, sample->pixel + 0x9e3779b9u * eye.met);
-    const float radiance = eye.branch.share * eye.branch.scale;
-    shown.direct += radiance * at_end.direct;
-    shown.kept.caustic += radiance * at_end.kept.caustic;
-    shown.kept.indirect += radiance * at_end.kept.indirect;
+    shade_end(world, sample, &eye.branch.path, &at, shines, last > 0, eye.branch.spread, band, eye.sample, paths,
+              sample->pixel + 0x9e3779b9u * eye.met, eye.branch.share * eye.branch.scale, sum);
   } while (next_branch(&eye));
-  shown.direct += eye.shine;
-  return shown;
+  sum->direct += eye.shine;
 }
 
 // samples: [count], each a pixel and the sample's number there.
@@ -189,8 +180,8 @@ __kernel void direct(WORLD_ARGUMENTS, volatile __global long* film,
     if (is_bent)
       band = band_of_eye_path(&world, launch.seed, sample.frame, i - straight, bent, sample.pixel,
                               STREAM_CAMERA_CLUSTER, &chance);
-    const Shown shown =
-        follow(&world, &sample, &way, first, &band, unbent, is_bent ? i - straight : 0u, is_bent ? bent : 1u);
+    Shown shown = {(float3)(0.0f), {(float3)(0.0f), (float3)(0.0f)}};
+    follow(&world, &sample, &way, first, &band, unbent, is_bent ? i - straight : 0u, is_bent ? bent : 1u, &shown);
     xyz += shown.direct / (is_bent ? chance * (float)bent : 1.0f);
     caustic += shown.kept.caustic / (float)bent;
     indirect += shown.kept.indirect / (float)bent;

@@ -173,8 +173,8 @@ static inline Footprint footprint_on_page(const Footprint* f, const DevicePage* 
 
 // The texels of a page that a footprint may touch: from.x to to.x and from.y to to.y.
 static inline void texels_under(const Footprint* f, int2* from, int2* to) {
-  *from = max(convert_int2_rtn(low_corner(f)), 0);
-  *to = min(convert_int2_rtn(high_corner(f)), PAGE_EDGE - 1);
+  *from = max(convert_int2_rtn(low_corner(f)), (int2)(0));
+  *to = min(convert_int2_rtn(high_corner(f)), (int2)(PAGE_EDGE - 1));
 }
 
 static inline void add_quanta(volatile __global long* sum, long x, long y, long z) {
@@ -188,8 +188,9 @@ static inline void add_point_to_chart(const Receivers* on, int root, float2 plac
                                       float3 quanta) {
   const int number = page_under(on, root, place, PAGE_LEVELS);
   const DevicePage page = on->pages[number];
-  const int2 texel = clamp(convert_int2_rtn(place * (float)(PAGE_EDGE << page.level)) -
-                               (int2)(page.x, page.y) * PAGE_EDGE, 0, PAGE_EDGE - 1);
+  const int2 from_corner =
+      convert_int2_rtn(place * (float)(PAGE_EDGE << page.level)) - (int2)(page.x, page.y) * PAGE_EDGE;
+  const int2 texel = clamp(from_corner, (int2)(0), (int2)(PAGE_EDGE - 1)); // Oclgrind takes no scalars here
   add_quanta(sums + page_size(on) * (size_t)number + 3 * (texel.y * PAGE_EDGE + texel.x), convert_long_rte(quanta.x),
              convert_long_rte(quanta.y), convert_long_rte(quanta.z));
 }
@@ -321,10 +322,16 @@ typedef struct {
   float3 caustic, indirect;
 } LightOfKinds;
 
+static inline void add_light(LightOfKinds* sum, float part, LightOfKinds more) {
+  sum->caustic += part * more.caustic;
+  sum->indirect += part * more.indirect;
+}
+
 // The mean irradiance over a footprint, in quanta per square unit, of `layers` layers, each with its weight. at: as in
 // look_on_chart. totals: from first_texel of the first kind on, by receiver_light.cl.
-IN_PLACE LightOfKinds look_at_receiver(const Receivers* on, const Surface* surface, float side, float3 a, float3 b,
-                                 float2 at, __global const float* totals, int layers, const float* weights) {
+static inline LightOfKinds look_at_receiver(const Receivers* on, const Surface* surface, float side, float3 a, float3 b,
+                                            float2 at, __global const float* totals, int layers,
+                                            const float* weights) {
   const LightOfKinds none = {(float3)(0.0f), (float3)(0.0f)};
   ChartLook look = look_on_chart(on, surface, side, a, b, at);
   if (look.chart == NO_PAGE || on->roots[look.chart] == NO_PAGE) return none;

@@ -115,11 +115,6 @@ static inline LightOfKinds light_of_end(const World* world, const Receivers* on,
   return light;
 }
 
-static inline void add_light(LightOfKinds* sum, LightOfKinds more) {
-  sum->caustic += more.caustic;
-  sum->indirect += more.indirect;
-}
-
 // The same of a quarter of the band, whose light ends on `surface`, each layer at a place of its own.
 static inline LightOfKinds light_of_quarter(const World* world, const Receivers* on, __global const float* totals,
                                       const EyeFootprint* footprint, const Path* path, const Surface* surface,
@@ -138,11 +133,11 @@ static inline LightOfKinds light_of_quarter(const World* world, const Receivers*
     float3 place;
     if (stretched_place(path, surface, beyond_leader(world, band, wavelength), &place)) of_layer.position = place;
     const float weight = parts->middle / band->size * part_of_layer(places, quarter.low, last_place);
-    add_light(&light, look_of_path(world, on, totals, path, footprint, &of_layer, layer, 1, &weight));
+    add_light(&light, 1.0f, look_of_path(world, on, totals, path, footprint, &of_layer, layer, 1, &weight));
   }
   if (carrier < 0) return light;
   const float2 places = places_of_layer(on, carrier);
   const float weight = 0.25f * (number_of_four(parts->four, i) - parts->middle) / (places.y - places.x);
-  add_light(&light, look_of_path(world, on, totals, path, footprint, surface, carrier, 1, &weight));
+  add_light(&light, 1.0f, look_of_path(world, on, totals, path, footprint, surface, carrier, 1, &weight));
   return light;
 }
