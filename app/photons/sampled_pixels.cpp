@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <span>
 
 namespace nephroid::photons {
 namespace {
 
-constexpr std::size_t most_samples_a_slice = 1 << 18;
+constexpr double most_samples_a_slice = 1 << 18;
 
 /// The least rate still notices what the first samples have missed; the most leaves photons their turn.
 constexpr double least_rate = 1.0 / 31, most_rate = 64;
@@ -66,8 +68,8 @@ private:
 
 SampledPixels::SampledPixels(const StageContext& world, std::int64_t enough, double paths)
     : world_(world), enough_(enough), paths_(paths), passes_(world.pixels.glass.empty() ? enough : preset::max_passes),
-      counts_(world.pixels.count), rates_(world.pixels.count, 1),
-      on_device_(world.context, "samples", most_samples_a_slice) {}
+      counts_(world.pixels.count), rates_(world.pixels.count, 1), left_(world.pixels.count),
+      on_device_(world.context, "samples", static_cast<std::size_t>(most_samples_a_slice)) {}
 
 std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) const {
   const std::int64_t rate = rates_[pixel];
@@ -78,14 +80,22 @@ std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) con
 }
 
 void SampledPixels::take_next(std::int64_t pass, double amount) {
+  if (taken_ == wanted_) {
+    for (std::size_t pixel = 0; pixel < left_.size(); ++pixel)
+      left_[pixel] = static_cast<std::uint8_t>(samples_in(pixel, pass));
+    taken_ = next_pixel_ = 0;
+    wanted_ = std::reduce(left_.begin(), left_.end(), std::int64_t{0});
+  }
   next_.clear();
-  const auto most = static_cast<std::size_t>(std::clamp(amount, 1.0, most_samples_a_slice - most_rate));
+  const auto most = static_cast<std::size_t>(std::clamp(amount, 1.0, most_samples_a_slice));
   const auto half = static_cast<std::uint32_t>(pass % 2);
-  auto pixel = static_cast<std::size_t>(done_);
-  for (; pixel < counts_.size() && next_.size() < most; ++pixel)
-    for (std::int64_t n = samples_in(pixel, pass); n > 0; --n)
-      next_.push_back({static_cast<std::uint32_t>(pixel), 2 * counts_[pixel][half]++ + half});
-  done_ = pixel < counts_.size() ? static_cast<std::int64_t>(pixel) : 0;
+  for (; next_.size() < most && taken_ < wanted_; next_pixel_ = (next_pixel_ + 1) % std::ssize(left_)) {
+    const auto pixel = static_cast<std::size_t>(next_pixel_);
+    if (left_[pixel] == 0) continue;
+    --left_[pixel];
+    ++taken_;
+    next_.push_back({static_cast<std::uint32_t>(pixel), 2 * counts_[pixel][half]++ + half});
+  }
   next_count_ = next_.size();
   world_.context.communicator().keep_own_share(next_);
   if (!next_.empty()) on_device_.write(next_);
@@ -130,9 +140,12 @@ double SampledPixels::work() const {
 
 void SampledPixels::serialize(tracing::Archive& archive) {
   archive.value(passes_);
-  archive.value(done_);
+  archive.value(taken_);
+  archive.value(wanted_);
+  archive.value(next_pixel_);
   archive.items(counts_);
   archive.items(rates_);
+  archive.items(left_);
   if (std::ranges::count(rates_, 0) > 0) throw bad_input("checkpoint.bin", "is of another run");
 }
 

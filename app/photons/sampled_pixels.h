@@ -24,17 +24,18 @@ public:
 
   /// The number of passes that may have samples.
   std::int64_t passes() const { return passes_; }
-  double fraction_done() const { return static_cast<double>(done_) / static_cast<double>(counts_.size()); }
+  double fraction_done() const { return taken_ < wanted_ ? double(taken_) / double(wanted_) : 0; }
 
-  /// Calls work(samples, count) for the next samples of the pass, on the device. x is the pixel, y the sample's number
-  /// in it. Even numbers belong to the film's first half, odd ones to the second. True when the pass is complete.
+  /// Calls work(samples, count) for the next samples of the pass, on the device: one of each pixel, then another of
+  /// each that has more, ... x is the pixel, y the sample's number in it. Even numbers belong to the film's first half,
+  /// odd ones to the second. True when the pass is complete.
   template <class Work>
   bool advance(std::int64_t pass, const Work& work) {
     take_next(pass, amount_.amount(world_.context.communicator()));
     amount_.timed(static_cast<double>(next_count_), [&] {
       if (!next_.empty()) work(on_device_, static_cast<std::uint32_t>(next_.size()));
     });
-    return done_ == 0;
+    return taken_ == wanted_;
   }
 
   /// A pixel's samples, as Film::samples.
@@ -60,8 +61,10 @@ private:
   double paths_;
   std::int64_t passes_;
   std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: samples in even and in odd passes
-  std::vector<std::int16_t> rates_; ///< [pixel]: n > 0: n samples a pass; n < 0: one sample in every -n passes
-  std::int64_t done_ = 0;           ///< pixels done in the current pass
+  std::vector<std::int16_t> rates_;     ///< [pixel]: n > 0: n samples a pass; n < 0: one sample in every -n passes
+  std::vector<std::uint8_t> left_;      ///< [pixel]: samples that it still has in the current pass
+  std::int64_t taken_ = 0, wanted_ = 0; ///< samples of all pixels in it
+  std::int64_t next_pixel_ = 0;
   std::vector<shared::uint2> next_; ///< this rank's part of the next samples
   std::size_t next_count_ = 0;      ///< next samples of all ranks
   compute::Buffer<shared::uint2> on_device_;
