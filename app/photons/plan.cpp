@@ -131,8 +131,8 @@ plan::Decision differentials_decision(const PlanInput& input) {
 PlanPart plan_caustics(const PlanInput& input) {
   const plan::Decision jitter = jitter_decision(input), low_discrepancy = low_discrepancy_decision(input.settings),
                        differentials = differentials_decision(input);
-  const bool sweeps = input.settings.jitter && !input.settings.relight &&
-                      tracing::stretch_parameter(input.scene) != tracing::StretchParameter::none;
+  const bool disperses = tracing::stretch_parameter(input.scene) != tracing::StretchParameter::none;
+  const bool sweeps = input.settings.jitter && !input.settings.relight && disperses;
   PlanPart part;
   if (input.caustics.runs)
     part.decisions = {input.tiles,
@@ -145,6 +145,7 @@ PlanPart plan_caustics(const PlanInput& input) {
                   {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
                   {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))},
                   {"NEPHROID_EYE_SWEEP", std::to_string(int(sweeps))},
+                  {"NEPHROID_EYE_PARTS", std::to_string(int(sweeps || !disperses))},
                   {"NEPHROID_EVEN_SKY", std::to_string(int(input.tables.has_even_sky))}};
   return part;
 }

@@ -207,7 +207,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_TINT_TEXTURES", flag(any(scatter::has_tint_texture))},
       {"NEPHROID_NORMAL_MAPS", flag(any(scatter::has_normal_map))},
       {"NEPHROID_TINTS", flag(any(scatter::is_tinted) || !leave_out.attenuation)},
-      {"NEPHROID_LOSSES", flag(attenuation)},
+      {"NEPHROID_LOSSES", flag(attenuation || any(scatter::is_coated))},
       {"NEPHROID_UNSPLIT", flag(unsplit)},
       {"NEPHROID_SMOOTH", flag(smooth)},
       {"NEPHROID_LENS", flag(!scene.camera.is_plain())}};

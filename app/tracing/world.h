@@ -79,6 +79,7 @@ struct World {
     compute::Defines result = defines;
     const bool swept = sweeps && defines.at("NEPHROID_EYE_SWEEP") == "1";
     result["NEPHROID_DIFFERENTIALS"] = std::to_string(int(swept));
+    if (!sweeps) result["NEPHROID_EYE_PARTS"] = std::to_string(0);
     if (swept) result["NEPHROID_JITTER"] = std::to_string(1); // also where each cluster has one wavelength
     return result;
   }

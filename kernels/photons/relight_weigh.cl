@@ -14,7 +14,8 @@ __kernel void weigh(__global const long* sums, int block_count, int rows, __glob
   __global const float* weight = weights + (size_t)reflector_of_block[block] * (size_t)rows * 6;
   float8 a = (float8)(0.0f), b = a, c = a, d = a, e = a, f = a;
   for (int row = 0; row < rows; ++row) {
-    const float8 value = convert_float8(vload8((size_t)row * (LAYER_BLOCK / 8) + (size_t)eighth, from));
+    const size_t four = 2 * ((size_t)row * (LAYER_BLOCK / 8) + (size_t)eighth); // a long8 may fit no register
+    const float8 value = (float8)(convert_float4(vload4(four, from)), convert_float4(vload4(four + 1, from)));
     a += weight[0] * value;
     b += weight[1] * value;
     c += weight[2] * value;

@@ -54,17 +54,43 @@ static inline bool find_sides(const Media* media, const Surface* surface, __glob
   return true;
 }
 
-// The coating for the wavelength of a band.
-static inline ThinFilm coating_of(const World* world, const DeviceMaterial* material, const Band* band) {
+static inline ThinFilm coating_at(const World* world, const DeviceMaterial* material, int wavelength) {
   ThinFilm film = no_film();
 #if NEPHROID_COATINGS
   if (material->surface_first >= 0) {
-    const int wavelength = max(band->wavelength, 0); // the plan gives every path one
     film.n = world->tables.surface_data[material->surface_first + wavelength];
     film.thickness = material->coating_nm / (float)(380 + wavelength);
   }
 #endif
   return film;
+}
+
+// The part that a coated surface reflects of a wavelength that meets it as the sample does.
+static inline float coated_part(const World* world, const DeviceMaterial* material, const ScatterSample* sample,
+                                float cos_i, int wavelength) {
+  __global const float* n_of = index_of_wavelength(world, wavelength);
+  const float n_near = sample->near_material < 0 ? 1.0f : n_of[sample->near_material],
+              n_far = sample->far_material < 0 ? 1.0f : n_of[sample->far_material],
+              cos_t = refracted_cosine(cos_i, n_near / n_far);
+  return cos_t < 0.0f ? 1.0f
+                      : film_reflectance(cos_i, cos_t, n_near, n_far, coating_at(world, material, wavelength));
+}
+
+// The parts that a surface reflects of all wavelengths of a path that arrives along a direction, as its leader is
+// scattered. False: it has no coating, and the sample tells.
+static inline bool coated_parts(const World* world, const Interaction* at, float3 arriving, const Band* band,
+                                const ScatterSample* sample, Parts* parts) {
+  if (NEPHROID_COATINGS == 0 || !is_material(&at->material, MATERIAL_DIELECTRIC) || at->material.surface_first < 0 ||
+      sample->straight || sample->near_material == sample->far_material)
+    return false;
+  const float cos_i = clamp(-dot(arriving, sample->normal), 0.0f, 1.0f);
+  const int4 w = band->own.wavelengths;
+  parts->four = (float4)(coated_part(world, &at->material, sample, cos_i, w.x),
+                         coated_part(world, &at->material, sample, cos_i, w.y),
+                         coated_part(world, &at->material, sample, cos_i, w.z),
+                         coated_part(world, &at->material, sample, cos_i, w.w));
+  parts->middle = coated_part(world, &at->material, sample, cos_i, band->own.middle);
+  return true;
 }
 
 // n: index of the medium around, n_pane: of the pane. u: as in scatter_about.
@@ -127,7 +153,7 @@ static inline bool dielectric_scatter(const World* world, Path* path, const Inte
 #endif
   Sides sides;
   if (!find_sides(&path->media, surface, world->objects, n_of, path->direction, &sides)) return false;
-  const ThinFilm coating = coating_of(world, &at->material, band);
+  const ThinFilm coating = coating_at(world, &at->material, max(band->wavelength, 0)); // the plan gives every path one
   const bool coated = coating.thickness > 0.0f && sides.near_object != sides.far_object;
   if (NEPHROID_BENDING == 0 || (sides.n_near == sides.n_far && !coated)) { // one hides the other, or they are alike
     sample->direction = path->direction;

@@ -47,6 +47,12 @@ static inline bool is_full(const Throughput* throughput) {
   return !NEPHROID_LOSSES || (throughput->own.middle == 1.0f && !are_coloured(&throughput->own));
 }
 
+// 1 less the parts.
+static inline Parts without_parts(Parts parts) {
+  const Parts rest = {1.0f - parts.four, 1.0f - parts.middle};
+  return rest;
+}
+
 static inline void leave_parts(Parts* parts, Parts factors) {
   parts->four *= factors.four;
   parts->middle *= factors.middle;

@@ -10,7 +10,9 @@
 #endif
 
 // The part of a path's radiance below which a branch is not followed beside another.
-#define LEAST_SHARE 0.02f
+#define LEAST_SHARE 0.005f
+// By how much of its spread a path blurs highlights, as slopes of microfacets.
+#define HIGHLIGHT_BLUR 0.7f
 // How many branches of a path can wait to be followed.
 #define EYE_PENDING 4
 
@@ -121,14 +123,20 @@ static inline float3 highlight(const World* world, int light_index, bool beyond,
   return carried_light(world, &scattered.throughput, lamp, band, white_reflector()).xyz * (arrival.irradiance * part);
 }
 
-// The same of all lamps on both sides of a rough surface.
-static inline float3 highlights(const World* world, const Visitor* eye, const Path* path, const Interaction* at) {
+// The same of all lamps on both sides of a rough surface. After another rough surface a path stands for all ways within
+// its spread, so it sees a highlight as far blurred as these; less so the more paths there are, by the power -1/6, so
+// that noise and blur vanish alike (Kaplanyan and Dachsbacher 2013, "Path Space Regularization").
+static inline float3 highlights(const World* world, const Visitor* eye, const Path* path, const Interaction* met) {
+  const float blur = HIGHLIGHT_BLUR * eye->branch.spread *
+                     pow(1.0f + (float)(eye->number / (NEPHROID_FILM_HALVES * PATHS_THROUGH_GLASS)), -1.0f / 6.0f);
+  Interaction at = *met;
+  at.material.alpha = sqrt(at.material.alpha * at.material.alpha + blur * blur);
   SET_ASIDE float3 xyz = (float3)(0.0f);
   const uint numbers = eye->pixel + 0x9e3779b9u * (1u + eye->met);
   for (int l = 0; l < world->scene.light_count; ++l)
-    for (int beyond = 0; beyond < ((lobes_of(&at->material) & LOBE_TRANSMISSION) != 0u ? 2 : 1); ++beyond)
+    for (int beyond = 0; beyond < ((lobes_of(&at.material) & LOBE_TRANSMISSION) != 0u ? 2 : 1); ++beyond)
       if (!is_of_environment(world, l)) // which paths find
-        xyz += highlight(world, l, beyond, path, at, &eye->band, eye->seed, eye->sample, eye->paths, numbers);
+        xyz += highlight(world, l, beyond, path, &at, &eye->band, eye->seed, eye->sample, eye->paths, numbers);
   return xyz;
 }
 
@@ -161,6 +169,16 @@ static inline void visit_surface(const World* world, Visitor* eye, const Path* p
   if (!to_base) eye->lobes = LOBE_REFLECTION;
 }
 
+// Leaves to a branch what it has of a surface's light by wavelength, its mean in its share.
+static inline void share_by_wavelength(EyeBranch* branch, Parts parts) {
+  const float mean = 0.2f * (parts.four.x + parts.four.y + parts.four.z + parts.four.w + parts.middle),
+              factor = mean > 0.0f ? 1.0f / mean : 0.0f;
+  parts.four *= factor;
+  parts.middle *= factor;
+  leave_parts(&branch->path.throughput.own, parts);
+  branch->share *= mean;
+}
+
 static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, const Interaction* at,
                                  const ScatterSample* sample, int n) {
   EyeBranch *branch = &eye->branch, *reflected = &eye->before;
@@ -170,9 +188,16 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
   branch->spread += at->material.alpha;
   reflected->spread = branch->spread;
   branch->scale *= sample->n_ratio * sample->n_ratio;
-  if (!sample->transmitted || sample->reflectance == 0.0f) return true;
-  reflected->share *= sample->reflectance;
-  branch->share *= 1.0f - sample->reflectance;
+  Parts parts;
+  const bool coated = coated_parts(world, at, reflected->path.direction, &eye->band, sample, &parts);
+  if (!sample->transmitted || (sample->reflectance == 0.0f && !coated)) return true;
+  if (coated) {
+    share_by_wavelength(reflected, parts);
+    share_by_wavelength(branch, without_parts(parts));
+  } else {
+    reflected->share *= sample->reflectance;
+    branch->share *= 1.0f - sample->reflectance;
+  }
   bool goes_through, goes_back;
   choose_branches(eye, reflected, n, &goes_through, &goes_back);
   ScatterSample back;

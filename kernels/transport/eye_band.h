@@ -6,17 +6,16 @@
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/world.h"
 
-// 1: some glass is coated, and reflects each wavelength otherwise.
-#ifndef NEPHROID_COATED
-#define NEPHROID_COATED 0
+// 1: all wavelengths of a part end at one place, or its ends are swept.
+#ifndef NEPHROID_EYE_PARTS
+#define NEPHROID_EYE_PARTS 0
 #endif
 
 // How many parts there are for a pixel's path `number` in a half of the film: a power of two near the cube root of
-// a quarter of the number; many where ends are not swept, or do not tell what a coating left of other wavelengths.
+// a quarter of the number, or many.
 static inline uint parts_of_spectrum(uint number) {
   if (!NEPHROID_JITTER) return 1u;
-  if (NEPHROID_COATED) return 256u;
-  return NEPHROID_DIFFERENTIALS ? 1u << (31u - clz(max(number / 4u, 1u))) / 3u : 256u;
+  return NEPHROID_EYE_PARTS ? 1u << (31u - clz(max(number / 4u, 1u))) / 3u : 256u;
 }
 
 // A place in the spectrum (member_at) for path `path` of `paths` in a frame. One path after the other takes each of the
