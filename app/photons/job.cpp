@@ -37,12 +37,28 @@ std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scen
   return preview_edges(scene.camera.width, scene.camera.height);
 }
 
-std::optional<BlockSmoothing> make_smoothing(const RunPlan& plan, const scene::Scene& scene, const scene::Bvh& bvh) {
+/// Of Smoothing.
+std::vector<float> seen_texture(StageContext& world) {
+  constexpr float least = 0.02f; // what a black texel reflects is dark, not without light
+  const compute::Buffer<float> colours(world.context, "textures in pixels", 3 * world.pixels.count);
+  compute::Kernel kernel =
+      compute::Program(world.context, "photons/seen_texture.cl", world.eye_defines()).kernel("seen_texture");
+  const auto count = static_cast<std::uint32_t>(world.pixels.count);
+  world.run(kernel, count, 64, {{"camera", world.tables.camera}, {"count", count}, {"colours", colours}});
+  std::vector<float> seen = colours.read();
+  for (float& value : seen) value = std::max(value, least);
+  return seen;
+}
+
+std::optional<BlockSmoothing> make_smoothing(StageContext& world, const RunPlan& plan, const scene::Scene& scene,
+                                             const scene::Bvh& bvh) {
   if (!plan.runs(smoothing_part)) return std::nullopt;
   const std::vector<int> edges = edges_of_previews(plan, scene);
   const bool everywhere = plan.settings.smoothing == Settings::Smoothing::on;
   return BlockSmoothing(scene, bvh, everywhere ? Smoothing::Spread::everywhere : Smoothing::Spread::where_it_helps,
-                        edges.empty() ? 1 : edges[0]);
+                        edges.empty() ? 1 : edges[0],
+                        any_material(scene, scatter::is_textured) ? [&world] { return seen_texture(world); }
+                                                                  : std::function<std::vector<float>()>());
 }
 
 class PassesJob final : public PhotonJob, public job::SpectrumSource {
@@ -53,7 +69,7 @@ public:
                preset.white.value(), plan.estimates_error ? 2u : 1u},
         preset_(preset), why_no_layers_(plan.why_no_layers), passes_(plan.tables.batches),
         preview_(world_, edges_of_previews(plan, scene)),
-        development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh), !plan.runs(tile_stage),
+        development_(world_, passes_, preview_, make_smoothing(world_, plan, scene, bvh), !plan.runs(tile_stage),
                      plan.settings.smoothing == Settings::Smoothing::automatic),
         shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight &&
                      plan.estimates_error) {

@@ -312,8 +312,9 @@ std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& sc
   return std::make_shared<const View>(View{std::move(seen), bvh});
 }
 
-Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread)
-    : width_(width), height_(height), spread_(spread), view_(std::move(view)) {}
+Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread,
+                     std::function<std::vector<float>()> find_texture)
+    : width_(width), height_(height), spread_(spread), view_(std::move(view)), find_texture_(std::move(find_texture)) {}
 
 void Smoothing::find_surfaces() {
   if (!view_) return;
@@ -328,15 +329,19 @@ void Smoothing::find_surfaces() {
       pixels[i] =
           surfaces_of_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
+  if (find_texture_) texture_ = find_texture_();
   const std::vector<bool> pulled = are_near_pulled(pixels, width_, height_);
   const auto is_so = [&](int object, bool (*is)(const scatter::Material&)) {
     return object >= 0 && is(material_of(view->scene, view->scene.objects[static_cast<std::size_t>(object)]));
   };
+  std::vector<bool> knows_texture(seen.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto& [first, last, way, spacing] = pixels[i];
     // What a rough surface shows has no outlines and no texture left, but for its own.
-    const bool is_rough = is_so(first.object, scatter::is_rough),
-               has_detail = (is_so(last.object, scatter::has_pictures) && !is_rough) ||
+    const bool is_rough = is_so(first.object, scatter::is_rough);
+    knows_texture[i] = !texture_.empty() && first.object == last.object && !is_rough &&
+                       is_so(last.object, scatter::is_textured) && !is_so(last.object, scatter::has_normal_map);
+    const bool has_detail = (is_so(last.object, scatter::has_pictures) && !is_rough && !knows_texture[i]) ||
                             is_so(first.object, scatter::has_rough_texture) ||
                             is_so(first.object, scatter::has_tint_texture);
     seen[i] = {pulled[i] || is_rough ? first : last, has_detail ? -1 : first.object};
@@ -358,6 +363,8 @@ void Smoothing::find_surfaces() {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;
   });
+  for (std::size_t i = 0; i < texture_.size(); ++i) // at an edge the texture is only a part of what a pixel shows
+    if (!knows_texture[i / 3] || seen[i / 3].at_edge) texture_[i] = 1;
   level_.resize(seen.size());
   for_ranges(seen.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
@@ -387,6 +394,9 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
       for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) to[c] = from.empty() ? 0 : from[c];
   };
   const std::vector<float> rgb_before = rgb, draw_before = error_draw;
+  std::vector<float> known_light(known.begin(), known.end());
+  for (std::vector<float>* values : {&rgb, &error_draw, &known_light})
+    for (std::size_t i = 0; i < values->size() && !texture_.empty(); ++i) (*values)[i] /= texture_[i];
   keep_lamps({}, rgb);
   keep_lamps({}, error_draw);
   const std::vector<double> light = light_of(rgb);
@@ -423,8 +433,10 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
     rgb_spread = spread_by(kernels, rgb);
   }
   std::vector<float> draw_spread = spread_by(kernels, error_draw);
-  if (!known.empty()) mix(rgb, error_draw, {known, {}}, light, width_, height_, rgb_spread, draw_spread);
+  if (!known.empty()) mix(rgb, error_draw, {known_light, {}}, light, width_, height_, rgb_spread, draw_spread);
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
+  for (std::vector<float>* values : {&rgb_spread, &draw_spread})
+    for (std::size_t i = 0; i < values->size() && !texture_.empty(); ++i) (*values)[i] *= texture_[i];
   keep_lamps(rgb_before, rgb_spread);
   keep_lamps(draw_before, draw_spread);
   rgb = std::move(rgb_spread);

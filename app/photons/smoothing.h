@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,10 +42,12 @@ public:
   /// Sends one ray through the middle of every pixel of a picture of width x height, on every core. Light is spread
   /// within one nearly flat part of the diffuse object that the pixel shows, be it directly, in a mirror or through
   /// glass. Along the object's outline it stays there. Where glass or a mirror shows none, is rough, or pulls
-  /// neighbours far apart, light is spread within one nearly flat part of it. Where a texture is seen, but in what is
-  /// rough, it stays. The rays would hold up a preview, so they wait until the first call of find_surfaces() or
-  /// spread().
-  Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
+  /// neighbours far apart, light is spread within one nearly flat part of it. Where a texture of colour is seen
+  /// directly, the light without it is spread; where one is seen otherwise, but in what is rough, light stays. The rays
+  /// would hold up a preview, so they wait until the first call of find_surfaces() or spread(). find_texture: makes the
+  /// colours [pixel][3] of textures that are seen directly, linear RGB; none where light stays there, too.
+  Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread,
+            std::function<std::vector<float>()> find_texture = {});
   void find_surfaces();
 
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
@@ -64,8 +67,10 @@ private:
   int width_, height_;
   Spread spread_;
   std::shared_ptr<const View> view_; ///< null once the surfaces are found
-  std::vector<Level> level_;         ///< [pixel]
-  std::vector<std::size_t> lamps_;   ///< pixels that may hold light which a lamp sends there itself, and keep it
+  std::function<std::vector<float>()> find_texture_;
+  std::vector<float> texture_;     ///< of find_texture_
+  std::vector<Level> level_;       ///< [pixel]
+  std::vector<std::size_t> lamps_; ///< pixels that may hold light which a lamp sends there itself, and keep it
 };
 
 } // namespace nephroid::photons
