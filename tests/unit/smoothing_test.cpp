@@ -69,8 +69,10 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std
   return {s / n, s2 / n - s * s / (n * n)};
 }
 
-photons::Smoothing smoothing_of(const scene::Scene& scene, const scene::Bvh& bvh, photons::Smoothing::Spread spread) {
-  return {photons::Smoothing::view_of(scene, bvh), scene.camera.width, scene.camera.height, spread};
+photons::Smoothing smoothing_of(const scene::Scene& scene, const scene::Bvh& bvh, photons::Smoothing::Spread spread,
+                                std::function<std::vector<float>()> find_texture = {}) {
+  return {photons::Smoothing::view_of(scene, bvh), scene.camera.width, scene.camera.height, spread,
+          std::move(find_texture)};
 }
 
 class Smoothing : public testing::Test, protected FloorAndWall {
@@ -84,6 +86,23 @@ TEST_F(Smoothing, leaves_what_shows_a_texture_as_it_is) {
   const std::vector<float> before = photons.rgb;
   smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere).spread(photons.rgb, photons.error_draw);
   EXPECT_EQ(photons.rgb, before);
+}
+
+// Even light of 2 photons a pixel on stripes, two pixels wide, of 1 and 1/4.
+TEST_F(Smoothing, spreads_light_on_a_texture_without_it) {
+  scene.materials[0].texture = std::make_shared<scatter::Texture>();
+  std::vector<float> texture;
+  for (int i = 0; i < size * size; ++i) texture.insert(texture.end(), 3, i / 2 % 2 == 0 ? 1.0f : 0.25f);
+  Photons photons = scatter([](int, int) { return 2.0; }, 1);
+  const Moments before = moments(photons.rgb, size / 2 + 8, size - 8, 8);
+  for (std::size_t i = 0; i < texture.size(); ++i) photons.rgb[i] *= texture[i], photons.error_draw[i] *= texture[i];
+  smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere, [&] {
+    return texture;
+  }).spread(photons.rgb, photons.error_draw);
+  for (std::size_t i = 0; i < texture.size(); ++i) photons.rgb[i] /= texture[i];
+  const Moments light = moments(photons.rgb, size / 2 + 8, size - 8, 8);
+  EXPECT_NEAR(light.mean, before.mean, 0.1);
+  EXPECT_LT(light.variance, before.variance / 4); // not where stripes are spread, or stay in what is spread
 }
 
 TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less) {
