@@ -100,19 +100,14 @@ void Development::share_work() {
   tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
   for (const job::Layer& layer : picture.layers) add(layer.rgb, picture.rgb);
 
-  // What glass shows of caustics is found by samples of the direct layer: they share its noise.
-  for (std::size_t s = 0; s < draws.size() && world_.caustics_seen; ++s)
-    if (passes_.stages()[s].layer == std::string_view("direct"))
-      for (std::size_t i = 0; i < draws[s].size(); ++i)
-        if (world_.pixels.may_show_glass[i / 3]) draws[s][i] = std::hypot(draws[s][i], splatted.draw[i]);
   const auto noise_of = [&](const std::vector<float>& draw) {
     const Noise noise{draw, picture.rgb};
-    double sum = 0; // without what glass shows, which are paths, too
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-      if (!world_.pixels.may_show_glass[i / 3]) sum += noise.of(i);
+    double sum = 0;
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) sum += noise.of(i);
     return sum;
   };
   const double noise = noise_of(splatted.draw), smoothed = noise > 0 ? noise / noise_of(plain) : 1;
+  std::vector<float> seen;                         // the draw of what paths find of caustics in glass
   double by_photons = 0, by_samples = 0, work = 0; // noise that they bring, and the samples' work
   for (std::size_t s = 0; s < draws.size(); ++s) {
     const TimedStage& timed = passes_.stages()[s];
@@ -120,10 +115,16 @@ void Development::share_work() {
       for (float& value : draws[s]) value *= static_cast<float>(std::sqrt(smoothed));
     if (timed.stage->samples_pixels())
       by_samples += noise_of(draws[s]);
-    else if (timed.caustics())
+    else if (timed.stage->photons_per_pass() > 0 && timed.caustics())
       by_photons += noise_of(draws[s]);
+    else if (timed.caustics())
+      seen = draws[s];
     work += timed.stage->work();
   }
+  // Those are samples of the direct layer, which share their noise.
+  for (std::size_t s = 0; s < draws.size(); ++s)
+    if (passes_.stages()[s].layer == std::string_view("direct"))
+      for (std::size_t i = 0; i < seen.size(); ++i) draws[s][i] = std::hypot(draws[s][i], seen[i]);
   const double gain = by_photons > 0
                           ? by_photons / (static_cast<double>(passes_.complete()) * static_cast<double>(photons))
                           : by_samples / work;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Writes the turned meshes of presets: a drinking glass, the water in it, a finger ring, straight and bent, a hoop, a
-bottle.
+bottle, a wine glass and its wine.
 
 usage: lathe.py [FOLDER]    (presets)
 
@@ -17,6 +17,15 @@ def arc(centre, radius, begin_deg, end_deg, steps):
     """Points of an arc, counter-clockwise where end > begin; 0 degrees is away from the axis, 90 up."""
     angles = [math.radians(begin_deg + (end_deg - begin_deg) * i / steps) for i in range(steps + 1)]
     return [(centre[0] + radius * math.cos(a), centre[1] + radius * math.sin(a)) for a in angles]
+
+
+def curve(*corners, steps=8):
+    """Points of a cubic Bezier curve, without its last one."""
+    def at(t):
+        part = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3]
+        return tuple(sum(p * c[axis] for p, c in zip(part, corners)) for axis in (0, 1))
+
+    return [at(i / steps) for i in range(steps)]
 
 
 def drinking_glass():
@@ -56,6 +65,26 @@ def bottle():
     return ([(0, 0), (1.6, 0)] + arc((2.8, 0.4), 0.4, -90, 0, 5) + [(3.2, 0.9), (3.2, 4), (3.2, 7.6)] +
             arc((1.9, 8), 1.3, 0, 62, 8) + [(1.6, 9.6), (1.25, 10.3), (1.12, 11), (1.1, 12.2)] +
             arc((1.1, 12.5), 0.2, -60, 90, 5) + [(0.6, 12.7), (0, 12.7)])
+
+
+def wine_glass():
+    """17.3 high, 7.8 across; its walls are 0.12."""
+    return ([(0, 0), (1.6, 0)] + arc((3.22, 0.08), 0.08, -90, 90, 8) +
+            curve((3.2, 0.16), (1.6, 0.35), (0.45, 0.5), (0.38, 1.8)) + [(0.36, 3), (0.35, 4.2), (0.36, 5.4)] +
+            curve((0.38, 6.6), (0.4, 8), (3.2, 7.6), (4, 11)) + curve((4, 11), (4.35, 12.6), (3.6, 15), (3.1, 17.2)) +
+            arc((3.04, 17.24), 0.06, 0, 180, 8) + inside_of_wine_glass()[1:] + [(0, 8.4)])
+
+
+def inside_of_wine_glass():
+    """From the rim down; the bowl's widest is where the second curve begins."""
+    return (curve((2.98, 17.2), (3.48, 15), (4.23, 12.6), (3.88, 11)) +
+            curve((3.88, 11), (3.08, 7.9), (1, 8.4), (0, 8.4)))
+
+
+def wine():
+    """To the bowl's widest, and 0.04 into the glass, which hides it there."""
+    bowl = [(radius + 0.04, height - 0.03) for radius, height in inside_of_wine_glass()[:7:-1]]
+    return [(0, 8.37)] + bowl + [(3.92, 11), (3.85, 11), (2, 11), (0, 11)]
 
 
 def bent(x, y, z):
@@ -98,7 +127,9 @@ def main():
     for name, profile, segments, closes in [("environment/drinking-glass", drinking_glass(), 96, False),
                                             ("environment/water", water(), 96, False),
                                             ("environment/ring", ring(), 96, True), ("spectral/hoop", hoop(), 96, True),
-                                            ("spectral/bottle", bottle(), 64, False)]:
+                                            ("spectral/bottle", bottle(), 64, False),
+                                            ("spectral/wine-glass", wine_glass(), 64, False),
+                                            ("spectral/wine", wine(), 64, False)]:
         write(folder, name, turn(profile, segments, closes))
     write(folder, "environment/bent-ring", turn(ring(), 96, True, bent))
 

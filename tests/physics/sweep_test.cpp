@@ -2,7 +2,7 @@
 // A path from the eye that glass has split shows a part of the spectrum, each wavelength where it goes: a lamp of three
 // lines looks as three lamps of a line each, whose paths have one way (kernels/transport/sweep.h).
 #include "spectral/settings.h"
-#include "tests/support/leaving_out_scenes.h"
+#include "tests/support/closed_form.h"
 
 #include <numeric>
 
