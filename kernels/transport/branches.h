@@ -14,7 +14,7 @@
 // By how much of its spread a path blurs highlights, as slopes of microfacets.
 #define HIGHLIGHT_BLUR 0.7f
 // How many branches of a path can wait to be followed.
-#define EYE_PENDING 4
+#define EYE_PENDING 6
 
 // A branch, up to its last surface.
 typedef struct {
