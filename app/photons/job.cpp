@@ -40,7 +40,7 @@ std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scen
 /// Of Smoothing.
 std::vector<float> seen_texture(StageContext& world) {
   constexpr float least = 0.02f; // what a black texel reflects is dark, not without light
-  const compute::Buffer<float> colours(world.context, "textures in pixels", 3 * world.pixels.count);
+  const compute::Buffer<float> colours(world.context, "textures in pixels", std::size_t{3} * world.pixels.count);
   compute::Kernel kernel =
       compute::Program(world.context, "photons/seen_texture.cl", world.eye_defines()).kernel("seen_texture");
   const auto count = static_cast<std::uint32_t>(world.pixels.count);

@@ -241,7 +241,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
     add(std::move(planned), plan);
   }
   // What photons leave on receivers is seen by stages that come after them.
-  std::ranges::stable_partition(plan.parts, [](const RunPart* part) {
+  std::stable_partition(plan.parts.begin(), plan.parts.end(), [](const RunPart* part) {
     return part == &photon_stage || part == &tile_stage || part == &indirect_photon_stage;
   });
   plan.layers = static_cast<int>(layers.size());

@@ -72,7 +72,8 @@ struct StageContext : tracing::World {
   static bool is_taken(std::int64_t pass) { return std::popcount(static_cast<std::uint64_t>(pass + 1)) <= 2; }
   /// How many of so many batches or passes are in each half.
   std::array<double, 2> of_halves(std::int64_t count) const {
-    return halves == 2 ? std::array{double((count + 1) / 2), double(count / 2)} : std::array{double(count), 0.0};
+    const std::int64_t second = halves == 2 ? count / 2 : 0;
+    return {static_cast<double>(count - second), static_cast<double>(second)};
   }
   /// The run's camera with a pixel for each block of the preview.
   shared::DeviceCamera preview_camera() const {
