@@ -45,14 +45,14 @@ LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer) {
 }
 
 BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread,
-                               int first_preview_edge, std::function<std::vector<float>()> find_texture)
+                               int first_preview_edge, Smoothing::FindTexture find_texture)
     : first_{scene.camera.width, scene.camera.height, first_preview_edge},
       in_pixels_(any_material(scene, scatter::has_pictures)) {
   const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
   for (Blocks blocks{first_.width, first_.height, first_preview_edge > 1 ? 2 * first_preview_edge : 1}; blocks.edge > 0;
        blocks.edge /= 2)
     levels_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(), spread,
-                                         blocks.edge == 1 ? find_texture : std::function<std::vector<float>()>())});
+                                         blocks.edge == 1 ? find_texture : Smoothing::FindTexture())});
 }
 
 LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate layer) {

@@ -4,7 +4,6 @@
 #include "photons/coarse.h"
 #include "photons/smoothing.h"
 
-#include <functional>
 #include <vector>
 
 namespace nephroid::photons {
@@ -23,7 +22,7 @@ public:
   /// first_preview_edge: of the first preview's blocks; 1: there is none, and light goes from pixel to pixel.
   /// find_texture: Smoothing's, for pixels.
   BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge,
-                 std::function<std::vector<float>()> find_texture = {});
+                 Smoothing::FindTexture find_texture);
 
   Smoothing& pixels() { return levels_.back().smoothing; }
   /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.

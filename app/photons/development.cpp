@@ -121,7 +121,7 @@ void Development::share_work() {
       seen = draws[s];
     work += timed.stage->work();
   }
-  // Those are samples of the direct layer, which share their noise.
+  // The samples of the direct layer find those, too, and lower that noise.
   for (std::size_t s = 0; s < draws.size(); ++s)
     if (passes_.stages()[s].layer == std::string_view("direct"))
       for (std::size_t i = 0; i < seen.size(); ++i) draws[s][i] = std::hypot(draws[s][i], seen[i]);

@@ -37,7 +37,7 @@ std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scen
   return preview_edges(scene.camera.width, scene.camera.height);
 }
 
-/// Of Smoothing.
+/// As Smoothing::FindTexture.
 std::vector<float> seen_texture(StageContext& world) {
   constexpr float least = 0.02f; // what a black texel reflects is dark, not without light
   const compute::Buffer<float> colours(world.context, "textures in pixels", std::size_t{3} * world.pixels.count);
@@ -58,7 +58,7 @@ std::optional<BlockSmoothing> make_smoothing(StageContext& world, const RunPlan&
   return BlockSmoothing(scene, bvh, everywhere ? Smoothing::Spread::everywhere : Smoothing::Spread::where_it_helps,
                         edges.empty() ? 1 : edges[0],
                         any_material(scene, scatter::is_textured) ? [&world] { return seen_texture(world); }
-                                                                  : std::function<std::vector<float>()>());
+                                                                  : Smoothing::FindTexture());
 }
 
 class PassesJob final : public PhotonJob, public job::SpectrumSource {

@@ -312,8 +312,7 @@ std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& sc
   return std::make_shared<const View>(View{std::move(seen), bvh});
 }
 
-Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread,
-                     std::function<std::vector<float>()> find_texture)
+Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread, FindTexture find_texture)
     : width_(width), height_(height), spread_(spread), view_(std::move(view)), find_texture_(std::move(find_texture)) {}
 
 void Smoothing::find_surfaces() {
@@ -339,8 +338,8 @@ void Smoothing::find_surfaces() {
     const auto& [first, last, way, spacing] = pixels[i];
     // What a rough surface shows has no outlines and no texture left, but for its own.
     const bool is_rough = is_so(first.object, scatter::is_rough);
-    knows_texture[i] = !texture_.empty() && first.object == last.object && !is_rough &&
-                       is_so(last.object, scatter::is_textured) && !is_so(last.object, scatter::has_normal_map);
+    knows_texture[i] =
+        !texture_.empty() && first.object == last.object && is_so(last.object, scatter::is_light_times_texture);
     const bool has_detail = (is_so(last.object, scatter::has_pictures) && !is_rough && !knows_texture[i]) ||
                             is_so(first.object, scatter::has_rough_texture) ||
                             is_so(first.object, scatter::has_tint_texture);

@@ -46,8 +46,8 @@ public:
   /// directly, the light without it is spread; where one is seen otherwise, but in what is rough, light stays. The rays
   /// would hold up a preview, so they wait until the first call of find_surfaces() or spread(). find_texture: makes the
   /// colours [pixel][3] of textures that are seen directly, linear RGB; none where light stays there, too.
-  Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread,
-            std::function<std::vector<float>()> find_texture = {});
+  using FindTexture = std::function<std::vector<float>()>;
+  Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread, FindTexture find_texture);
   void find_surfaces();
 
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
@@ -67,7 +67,7 @@ private:
   int width_, height_;
   Spread spread_;
   std::shared_ptr<const View> view_; ///< null once the surfaces are found
-  std::function<std::vector<float>()> find_texture_;
+  FindTexture find_texture_;
   std::vector<float> texture_;     ///< of find_texture_
   std::vector<Level> level_;       ///< [pixel]
   std::vector<std::size_t> lamps_; ///< pixels that may hold light which a lamp sends there itself, and keep it

@@ -14,9 +14,9 @@ __kernel void seen_texture(WORLD_ARGUMENTS, DeviceCamera camera, uint count, __g
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < PLACES_ALONG * PLACES_ALONG; ++i) {
     const float2 place = ((float2)(i % PLACES_ALONG, i / PLACES_ALONG) + 0.5f) / PLACES_ALONG;
-    const float3 direction = primary_direction(&camera, (int)pixel % camera.width, (int)pixel / camera.width, place);
-    const Path path = path_from_eye(&camera, direction);
-    const Hit hit = next_hit(&world, &path);
+    float3 direction;
+    EYE_OF(camera);
+    const Hit hit = first_hit(&world, eye, pixel, place, (uint2)(0u), 0u, STREAM_CAMERA, &direction);
     float3 colour = (float3)(1.0f);
     if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
       const Surface surface = surface_of(&world, hit);

@@ -70,7 +70,7 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std
 }
 
 photons::Smoothing smoothing_of(const scene::Scene& scene, const scene::Bvh& bvh, photons::Smoothing::Spread spread,
-                                std::function<std::vector<float>()> find_texture = {}) {
+                                photons::Smoothing::FindTexture find_texture = {}) {
   return {photons::Smoothing::view_of(scene, bvh), scene.camera.width, scene.camera.height, spread,
           std::move(find_texture)};
 }
@@ -334,7 +334,7 @@ TEST_F(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks) {
 TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even) {
   const auto is_glint = [](int x, int y) { return x % 12 == 5 && y % 12 == 5; };
   Photons photons = scatter([&](int x, int y) { return is_glint(x, y) && x < size / 2 ? 40000. : 400.; }, 9);
-  photons::BlockSmoothing blocks(scene, bvh, photons::Smoothing::Spread::where_it_helps, 8);
+  photons::BlockSmoothing blocks(scene, bvh, photons::Smoothing::Spread::where_it_helps, 8, {});
   photons::LayerEstimate layer{photons.rgb, photons.error_draw};
   blocks.spread(layer);
   int glints = 0;
