@@ -181,9 +181,11 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
   const bool bending =
       has(bends ? needed("bending", "glass has another n than its surroundings, or a coating")
                 : not_needed("bending", leave_out.bending, "no glass has another n than 1, and none a coating"));
-  const bool attenuation = has(
-      takes_light ? needed("attenuation", "glass absorbs, or a surface keeps a part of the light")
-                  : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no surface is coloured"));
+  const bool attenuation =
+      has(takes_light ? needed("attenuation", "glass absorbs, or a surface keeps a part of the light")
+          : any(scatter::is_coated)
+              ? needed("attenuation", "a coating leaves each wavelength another part")
+              : not_needed("attenuation", leave_out.attenuation, "no glass absorbs and no surface is coloured"));
   const bool smooth = has(counts.smooth > 0 ? needed("smooth normals", counted(counts.smooth, "smooth object"))
                           : any(scatter::has_normal_map)
                               ? needed("smooth normals", "a surface has a normal map")
@@ -207,7 +209,7 @@ CodeOmissions code_omissions(const LeaveOut& leave_out, const scene::Scene& scen
       {"NEPHROID_TINT_TEXTURES", flag(any(scatter::has_tint_texture))},
       {"NEPHROID_NORMAL_MAPS", flag(any(scatter::has_normal_map))},
       {"NEPHROID_TINTS", flag(any(scatter::is_tinted) || !leave_out.attenuation)},
-      {"NEPHROID_LOSSES", flag(attenuation || any(scatter::is_coated))},
+      {"NEPHROID_LOSSES", flag(attenuation)},
       {"NEPHROID_UNSPLIT", flag(unsplit)},
       {"NEPHROID_SMOOTH", flag(smooth)},
       {"NEPHROID_LENS", flag(!scene.camera.is_plain())}};

@@ -4,6 +4,10 @@
 // that lamps and the environment send to it. indirect_photons.cl brings the light that glass or a mirror sends to its
 // first diffuse surface, but for even light of the environment (sky.h), at which paths end here. It also brings that of
 // narrow spots, where the pixel shows no glass and no mirror.
+// 1: some glass is coated, and reflects each wavelength otherwise.
+#ifndef NEPHROID_COATED
+#define NEPHROID_COATED 0
+#endif
 #include "kernels/photons/launch_types.h"
 #include "kernels/tracing/work_item.h"
 #include "kernels/transport/eye_band.h"

@@ -77,8 +77,8 @@ static inline float coated_part(const World* world, const DeviceMaterial* materi
 }
 
 // The parts that a surface reflects of all wavelengths of a path that arrives along a direction, as its leader is
-// scattered. False: it has no coating, and the sample tells.
-static inline bool coated_parts(const World* world, const Interaction* at, float3 arriving, const Band* band,
+// scattered. False: they are alike, and the sample tells; only a coating makes them differ.
+static inline bool reflected_parts(const World* world, const Interaction* at, float3 arriving, const Band* band,
                                 const ScatterSample* sample, Parts* parts) {
   if (NEPHROID_COATINGS == 0 || !is_material(&at->material, MATERIAL_DIELECTRIC) || at->material.surface_first < 0 ||
       sample->straight || sample->near_material == sample->far_material)

@@ -128,7 +128,7 @@ static inline float evaluate_scatter(const World* world, Path* path, const Inter
   if (!scatter_polished(world, path, &at_microfacet, band, beyond ? 1.0f : 0.0f, &sample)) return 0.0f;
   if (sample.straight || sample.transmitted != beyond) return 0.0f;
   Parts reflected;
-  if (!coated_parts(world, at, path->direction, band, &sample, &reflected))
+  if (!reflected_parts(world, at, path->direction, band, &sample, &reflected))
     return part * (beyond ? 1.0f - sample.reflectance : sample.reflectance);
   leave_parts(&path->throughput.own, beyond ? without_parts(reflected) : reflected);
   return part;

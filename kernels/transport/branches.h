@@ -189,9 +189,9 @@ static inline bool visit_scatter(const World* world, Visitor* eye, Path* path, c
   reflected->spread = branch->spread;
   branch->scale *= sample->n_ratio * sample->n_ratio;
   Parts parts;
-  const bool coated = coated_parts(world, at, reflected->path.direction, &eye->band, sample, &parts);
-  if (!sample->transmitted || (sample->reflectance == 0.0f && !coated)) return true;
-  if (coated) {
+  const bool differ = reflected_parts(world, at, reflected->path.direction, &eye->band, sample, &parts);
+  if (!sample->transmitted || (sample->reflectance == 0.0f && !differ)) return true;
+  if (differ) {
     share_by_wavelength(reflected, parts);
     share_by_wavelength(branch, without_parts(parts));
   } else {
