@@ -119,16 +119,16 @@ static inline void visit_segment(const World* world, Visitor* photon, const Path
 #define WALK_LOBES
 #include "kernels/transport/walk.h"
 
-__kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global const float* radii,
-                   volatile __global long* film,
-                   volatile __global long* energy, // [OUTCOME_COUNT]
-                   DeviceBakeLaunch launch) {
+PHOTON_KERNEL(bake, (WORLD_ARGUMENTS, __global const float4* light_rgb, __global const float* radii,
+                     volatile __global long* film,
+                     volatile __global long* energy, // [OUTCOME_COUNT]
+                     DeviceBakeLaunch launch),
+                    (WORLD_NAMES, light_rgb, radii, film, energy, launch)) {
   const World world = WORLD;
   const Spheres spheres = {film, radii, launch.sphere_count, launch.side};
   __global const DeviceLight* light = world.lights;
-  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint item = index * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= launch.count) break;
     const uint photon = launch.first + item;
     const float4 start = sobol4(launch.seed, (uint3)(launch.number, 0u, 0u), 0u, photon);
@@ -150,5 +150,4 @@ __kernel void bake(WORLD_ARGUMENTS, __global const float4* light_rgb, __global c
     add_outcome(outcomes, outcome, left);
     add_outcome(outcomes, OUTCOME_ABSORBED, quanta - left);
   }
-  add_outcomes(energy, outcomes);
 }

@@ -70,11 +70,11 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 // Traces the paths of blocks of pixels. ends: ENDS_OF_PIXEL for each. A pixel that first sees glass follows both
 // reflection and the way through, this one in three colours where glass parts them. In a coarse picture, of larger
 // blocks, paths take the likelier way at later surfaces, because one that did not would stand out as a block.
-__kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states,
-                  int size, float4 middle, DeviceCamera camera, DeviceBlocks blocks) {
+ITEM_KERNEL(see, (WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states,
+                  int size, float4 middle, DeviceCamera camera, DeviceBlocks blocks),
+                 (WORLD_NAMES, channel_cdf, ends, states, size, middle, camera, blocks)) {
   const World world = WORLD;
   const int block = blocks.block;
-  const uint index = work_item();
   if (index >= blocks.count) return;
   const uint item = blocks.first + index;
   const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,

@@ -117,14 +117,14 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
 }
 
 // Adds to the sums of each block's pixels, or begins them anew. sums: [layer][pixel][3].
-__kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels,
+ITEM_KERNEL(shade, (WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels,
                     __global const float4* colours, // reflected_rgb: 3 a reflector; then lit_rgb
                     __global const float4* sky_lights, __global const float* distances, __global const float* caustics,
-                    __global const float* parts_seen, __global float* sums, DeviceShading shading) {
+                    __global const float* parts_seen, __global float* sums, DeviceShading shading),
+                   (WORLD_NAMES, ends, texels, colours, sky_lights, distances, caustics, parts_seen, sums, shading)) {
   const World world = WORLD;
   const DeviceBlocks blocks = shading.blocks;
   const int block = blocks.block, width = shading.width, height = shading.height;
-  const uint index = work_item();
   if (index >= blocks.count) return;
   const Background background = {texels, 0, shading.background};
   const SkyLights sky_in_lights = {sky_lights, shading.sky_light_count};

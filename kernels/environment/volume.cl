@@ -20,12 +20,12 @@ static inline float phase_function(float cosine, float together, int rayleigh, f
 }
 
 // Adds the light of each block of pixels. distances: the whole cube. sums: [pixel][3].
-__kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii,
-                     __global const float* distances, __global float* sums, DeviceCamera camera, DeviceMedium medium) {
+ITEM_KERNEL(volume, (WORLD_ARGUMENTS, __global const float* air, __global const float* radii,
+                     __global const float* distances, __global float* sums, DeviceCamera camera, DeviceMedium medium),
+                    (WORLD_NAMES, air, radii, distances, sums, camera, medium)) {
   const World world = WORLD;
   const DeviceBlocks blocks = medium.blocks;
   const int block = blocks.block;
-  const uint index = work_item();
   if (index >= blocks.count) return;
   const uint item = blocks.first + index;
   const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,

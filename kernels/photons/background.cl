@@ -104,16 +104,17 @@ IN_PLACE float3 shown_at_end(const World* world, const Background* background, c
 }
 
 // samples: [count], each a pixel and the sample's number there.
-__kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_before,
+ITEM_KERNEL(background, (WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_before,
                          DeviceBackground size, __global const float* spectrum_cdf,
                          __global const int* spectrum_clusters,
                          volatile __global long* film,
                          volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                         DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
+                         DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch),
+                        (WORLD_NAMES, texels, primary_before, size, spectrum_cdf, spectrum_clusters, film, energy,
+                         camera, samples, launch)) {
   const World world = WORLD;
   const Background background = {texels, primary_before, size};
   const SpectrumChoice choice = {spectrum_cdf, spectrum_clusters};
-  const uint index = work_item();
   if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;

@@ -135,15 +135,16 @@ IN_PLACE void follow(const World* world, const EyeSample* sample, const Path* pa
 }
 
 // samples: [count], each a pixel and the sample's number there.
-__kernel void direct(WORLD_ARGUMENTS, volatile __global long* film,
+ITEM_KERNEL(direct, (WORLD_ARGUMENTS, volatile __global long* film,
                      volatile __global long* seen_caustic,  // with NEPHROID_RECEIVERS: films of the light on them
                      volatile __global long* seen_indirect, // ... with two NEPHROID_KINDS_OF_LIGHT
                      volatile __global long* energy,     // [OUTCOME_COUNT]: only refused ones are counted
                      __global const int* receiver_table, __global const float* totals, // with NEPHROID_RECEIVERS
                      float radiance_per_quantum, // of light on receivers, per square unit
-                     DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
+                     DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch),
+                    (WORLD_NAMES, film, seen_caustic, seen_indirect, energy, receiver_table, totals,
+                     radiance_per_quantum, camera, samples, launch)) {
   const World world = WORLD;
-  const uint index = work_item();
   if (index >= launch.count) return;
   EyeSample sample;
   sample.seed = launch.seed;

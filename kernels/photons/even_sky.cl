@@ -49,12 +49,12 @@ IN_PLACE float3 even_irradiance(const World* world, __global const DeviceLight* 
 }
 
 // samples: [count], each a pixel and the sample's number there.
-__kernel void even_sky(WORLD_ARGUMENTS, int light_index,
+ITEM_KERNEL(even_sky, (WORLD_ARGUMENTS, int light_index,
                        volatile __global long* film,
                        volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                       DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
+                       DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch),
+                      (WORLD_NAMES, light_index, film, energy, camera, samples, launch)) {
   const World world = WORLD;
-  const uint index = work_item();
   if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;

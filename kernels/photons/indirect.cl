@@ -153,12 +153,12 @@ IN_PLACE float3 follow(const World* world, Visitor* eye, Path path, Hit hit) {
 }
 
 // samples: [count], each a pixel and the sample's number there.
-__kernel void indirect(WORLD_ARGUMENTS,
+ITEM_KERNEL(indirect, (WORLD_ARGUMENTS,
                        volatile __global long* film,
                        volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                       DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch) {
+                       DeviceCamera camera, __global const uint2* samples, DeviceSampleLaunch launch),
+                      (WORLD_NAMES, film, energy, camera, samples, launch)) {
   const World world = WORLD;
-  const uint index = work_item();
   if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;

@@ -136,13 +136,15 @@ static inline bool visit_scatter(const World* world, Visitor* photon, Path* path
 #include "kernels/transport/walk.h"
 
 // emitters: one for each light that has photons.
-__kernel void indirect_photons(WORLD_ARGUMENTS,
-                               __global const DeviceEmitter* emitters,
-                               __global const float* spectrum_cdf, // [light][member of all clusters]: chances
-                               volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                               __global const int* receiver_table, // with NEPHROID_RECEIVERS
-                               volatile __global long* light,      // likewise
-                               DeviceCamera camera, DevicePhotonLaunch launch) {
+PHOTON_KERNEL(indirect_photons, (WORLD_ARGUMENTS,
+                                 __global const DeviceEmitter* emitters,
+                                 __global const float* spectrum_cdf, // [light][member of all clusters]: chances
+                                 volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                                 __global const int* receiver_table, // with NEPHROID_RECEIVERS
+                                 volatile __global long* light,      // likewise
+                                 DeviceCamera camera, DevicePhotonLaunch launch),
+                                (WORLD_NAMES, emitters, spectrum_cdf, film, energy, receiver_table, light, camera,
+                                 launch)) {
   const World world = WORLD;
   const int members = world.tables.cluster_first[scene.cluster_count];
   Receiver receiver;
@@ -154,9 +156,8 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
   receiver.light = light + first_texel(&receiver.receivers, launch.iteration % NEPHROID_FILM_HALVES, 1, 0);
   receiver.stored_scale = launch.stored_scale;
 #endif
-  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint item = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint item = index * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= launch.count) break;
     const uint number = launch.offset + launch.stride * item;
     const DeviceEmitter emitter = emitters[emitter_of(emitters, launch.emitter_count, number)];
@@ -201,5 +202,4 @@ __kernel void indirect_photons(WORLD_ARGUMENTS,
                  photon.watts * band_share(&world, emission.source, &band, 0.0f) * launch.energy_scale,
                  part_left(&path.throughput));
   }
-  add_outcomes(energy, outcomes);
 }

@@ -19,6 +19,7 @@ typedef struct {
 #define LAYER_FILM_ARGUMENTS(name)                                                                                     \
   __global const int *name##_first, __global const LayerCell *name##_cells, volatile __global long *name##_sums,       \
       int name##_layer_count
+#define LAYER_FILM_NAMES(name) name##_first, name##_cells, name##_sums, name##_layer_count
 #define LAYER_FILM(name, pass)                                                                                         \
   {                                                                                                                    \
     name##_first, name##_cells, name##_sums, name##_layer_count, (int)((pass) % NEPHROID_FILM_HALVES)                  \

@@ -45,21 +45,22 @@ static inline float3 light_of_layer(const World* world, const Receivers* on, Sou
 #endif
 
 // energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
-__kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
-                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                      volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
-                      volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
-                      __global const float* guide,                                  // ... [light][GUIDE_FLOATS]
-                      __global StoredPhoton* stored,                                // with NEPHROID_STORE: [photon]
-                      __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
-                      DeviceCamera camera, DevicePhotonLaunch launch) {
+PHOTON_KERNEL(photons, (WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
+                        volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                        volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
+                        volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
+                        __global const float* guide,                                  // ... [light][GUIDE_FLOATS]
+                        __global StoredPhoton* stored,                                // with NEPHROID_STORE: [photon]
+                        __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
+                        DeviceCamera camera, DevicePhotonLaunch launch),
+                       (WORLD_NAMES, emitters, film, energy, moments, guide_moments, guide, stored, receiver_table,
+                        light, camera, launch)) {
   const World world = WORLD;
-  OUTCOMES(outcomes);
 #if NEPHROID_RECEIVERS
   const Receivers receivers = receivers_of(receiver_table);
 #endif
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint number = index * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= launch.count) break;
     const uint place = launch.offset + launch.stride * neighbours_follow(number, launch.count);
     const uint batch = launch.iteration + place / launch.photons_per_batch,
@@ -145,5 +146,4 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
 #endif
     count_photon(outcomes, end.outcome, end.segments, watts * end.share * launch.energy_scale, end.left);
   }
-  add_outcomes(energy, outcomes);
 }

@@ -8,10 +8,10 @@
 
 // The pages that the first ends of some samples of each pixel ask for. Work items are samples. looks:
 // [count][ASKING_SAMPLES][ASKING_ENDS].
-__kernel void ask_for_pages(WORLD_ARGUMENTS, __global const int* receiver_table, DeviceCamera camera,
-                            __global const uint* pixels, uint2 seed, uint count, __global DeviceLook* looks) {
+ITEM_KERNEL(ask_for_pages, (WORLD_ARGUMENTS, __global const int* receiver_table, DeviceCamera camera,
+                            __global const uint* pixels, uint2 seed, uint count, __global DeviceLook* looks),
+                           (WORLD_NAMES, receiver_table, camera, pixels, seed, count, looks)) {
   const World world = WORLD;
-  const uint index = work_item();
   if (index >= count * ASKING_SAMPLES) return;
   const Receivers on = receivers_of(receiver_table);
   const DeviceLook none = {NO_PAGE, 0.0f, 0.0f, 0};

@@ -8,10 +8,11 @@
 #include "kernels/transport/eye_walk.h"
 
 // Each work item finds the reflector at each fixed place of one pixel, -1 where there is none.
-__kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
-                     __global int* bent) { // [pixel][SURVEY_PLACES * SURVEY_PATHS]
+ITEM_KERNEL(survey, (WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
+                     __global int* bent),
+                    (WORLD_NAMES, camera, seed, unbent, bent)) { // [pixel][SURVEY_PLACES * SURVEY_PATHS]
   const World world = WORLD;
-  const int pixel = (int)work_item();
+  const int pixel = (int)index;
   if (pixel >= camera.width * camera.height) return;
   for (int place = 0; place < SURVEY_PLACES; ++place) {
     const float2 jitter = (float2)(place % 2 == 0 ? 0.25f : 0.75f, place < 2 ? 0.25f : 0.75f);
@@ -39,15 +40,17 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
 }
 
 // Takes one sample of every pixel of some rows. mean_reflectance: [cluster, then all clusters][reflector].
-__kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
+ITEM_KERNEL(direct, (WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
                      __global const float* luminance_share, // [cluster]: for a flat spectrum
                      LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy,
-                     DeviceCamera camera, DeviceRowLaunch launch) {
+                     DeviceCamera camera, DeviceRowLaunch launch),
+                    (WORLD_NAMES, cluster_cdf, mean_reflectance, luminance_share, LAYER_FILM_NAMES(unbent),
+                     LAYER_FILM_NAMES(bent), energy, camera, launch)) {
   const World world = WORLD;
-  const int index = (int)work_item();
-  if (index >= launch.row_count * camera.width) return;
+  const int place = (int)index;
+  if (place >= launch.row_count * camera.width) return;
   const LayerFilm unbent = LAYER_FILM(unbent, launch.frame), bent = LAYER_FILM(bent, launch.frame);
-  const int column = index % camera.width, row = launch.first_row + index / camera.width,
+  const int column = place % camera.width, row = launch.first_row + place / camera.width,
             pixel = row * camera.width + column;
   const float4 jitter = random4(launch.seed, launch.frame, (uint)pixel, 0u, STREAM_CAMERA);
   const float3 direction = primary_direction(&camera, column, row, jitter.xy);

@@ -8,15 +8,15 @@
 
 // All lamps have 1 W or 1 W m^-2. An emitter's `share` is its cluster's present power in the unit of energy_scale, for
 // the energy counters. Every photon counts alike.
-__kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
-                      LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
-                      volatile __global long* energy,                                     // [OUTCOME_COUNT]
-                      DeviceCamera camera, DevicePhotonLaunch launch) {
+PHOTON_KERNEL(photons, (WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
+                        LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
+                        volatile __global long* energy,                                     // [OUTCOME_COUNT]
+                        DeviceCamera camera, DevicePhotonLaunch launch),
+                       (WORLD_NAMES, emitters, LAYER_FILM_NAMES(film), mean_reflectance, energy, camera, launch)) {
   const World world = WORLD;
   const LayerFilm film = LAYER_FILM(film, launch.iteration);
-  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint number = index * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= launch.count) break;
     const uint photon = launch.offset + launch.stride * number;
     const PhotonStart start =
@@ -43,5 +43,4 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     count_photon(outcomes, end.outcome, end.segments,
                  emission.watts / (float)emitter.photon_count * emitter.share * launch.energy_scale, left);
   }
-  add_outcomes(energy, outcomes);
 }

@@ -368,15 +368,16 @@ static inline void start_branch(Branch* branch, const Emission* emission, Media 
 }
 
 // Follows the points launch.offset, ..., offset + count - 1 of a round. energy: as of photons.cl.
-__kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int lattice_count,
-                    __global const PixelView* views,
-                    volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                    __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
-                    DeviceCamera camera, DevicePhotonLaunch launch) {
+PHOTON_KERNEL(tiles, (WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int lattice_count,
+                      __global const PixelView* views,
+                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                      __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
+                      DeviceCamera camera, DevicePhotonLaunch launch),
+                     (WORLD_NAMES, lattices, lattice_count, views, film, energy, receiver_table, light, camera,
+                      launch)) {
   const World world = WORLD;
-  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
-    const uint number = work_item() * NEPHROID_PHOTONS_PER_ITEM + k;
+    const uint number = index * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= launch.count) break;
     const uint photon = launch.offset + number;
     const DeviceLattice lattice =
@@ -450,5 +451,4 @@ __kernel void tiles(WORLD_ARGUMENTS, __global const DeviceLattice* lattices, int
     }
     add_outcome(outcomes, OUTCOME_SEGMENTS, tile.segments);
   }
-  add_outcomes(energy, outcomes);
 }

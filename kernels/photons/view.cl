@@ -17,9 +17,9 @@ static inline float3 part_seen(const World* world, const Throughput* throughput,
 }
 
 // points: [count], where paths of the pixels end in the cluster's band.
-__kernel void view(WORLD_ARGUMENTS, __global VisiblePoint* points, DeviceCamera camera, DeviceViewLaunch launch) {
+ITEM_KERNEL(view, (WORLD_ARGUMENTS, __global VisiblePoint* points, DeviceCamera camera, DeviceViewLaunch launch),
+                  (WORLD_NAMES, points, camera, launch)) {
   const World world = WORLD;
-  const uint index = work_item();
   if (index >= launch.count) return;
   const uint pixel = launch.first + index;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;

@@ -3,11 +3,19 @@
 // by all items, so photons are first added up nearby: on a CPU by each item, which follows several, on a GPU by each
 // work group in local memory. Sums of whole numbers are the same in any order.
 //
-//   OUTCOMES(outcomes);            at the top of a kernel that every item of a group leaves by its end
-//   add_outcome(outcomes, OUTCOME_LOST, quanta);
-//   add_outcomes(energy, outcomes);
+// PHOTON_KERNEL(name, (parameters), (their names)) { ... } is an ITEM_KERNEL that adds its `outcomes` to its `energy`.
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/work_item.h"
+
+#define PHOTON_KERNEL(name, parameters, names)                                                                         \
+  COMPILED_ONCE void name##_item(uint index, Outcomes outcomes, WITHOUT_BRACKETS parameters);                          \
+  __kernel void name(WITHOUT_BRACKETS parameters) {                                                                    \
+    OUTCOMES(outcomes);                                                                                                \
+    name##_item(work_item(), outcomes, WITHOUT_BRACKETS names);                                                        \
+    add_outcomes(energy, outcomes);                                                                                    \
+  }                                                                                                                    \
+  COMPILED_ONCE void name##_item(uint index, Outcomes outcomes, WITHOUT_BRACKETS parameters)
 
 #ifdef NEPHROID_GPU
 typedef volatile __local uint* Outcomes; // lower and upper halves: atomics of 64 bits in local memory are rare, or slow

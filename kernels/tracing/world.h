@@ -27,6 +27,7 @@ typedef struct {
 
 // The arguments of a kernel in the scene, and its World.
 #define WORLD_ARGUMENTS __global const uchar *geometry, __global const uchar *tables, DeviceScene scene
+#define WORLD_NAMES geometry, tables, scene
 #define WORLD \
   {{GEOMETRY_TABLES(TABLE_IN_GEOMETRY) scene.root}, OBJECT_TABLES(TABLE_IN_TABLES) \
    {WAVELENGTH_TABLES(TABLE_IN_TABLES)}, STRETCH_TABLES(TABLE_IN_TABLES) \
