@@ -54,7 +54,7 @@ const std::vector<float>& truth_of(const std::string& name) {
   if (truth.empty()) {
     preset::Preset p = small(name, 1 << 17, 1);
     spectral::settings(p).smoothing = photons::Settings::Smoothing::off;
-    spectral::settings(p).pixel_samples = 1024;
+    spectral::settings(p).pixel_samples = 512;
     p.stop.passes = 32;
     truth = run_measured(p).rgb;
   }
