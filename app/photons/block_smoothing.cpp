@@ -46,24 +46,29 @@ LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer) {
 
 BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread,
                                int first_preview_edge, Smoothing::FindTexture find_texture)
-    : first_{scene.camera.width, scene.camera.height, first_preview_edge},
-      in_pixels_(any_material(scene, scatter::has_pictures)) {
+    : first_{scene.camera.width, scene.camera.height, first_preview_edge} {
   const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
   for (Blocks blocks{first_.width, first_.height, first_preview_edge > 1 ? 2 * first_preview_edge : 1}; blocks.edge > 0;
        blocks.edge /= 2)
-    levels_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(), spread,
-                                         blocks.edge == 1 ? find_texture : Smoothing::FindTexture())});
+    levels_.push_back({blocks, blocks.edge > 1
+                                   ? Smoothing(view, blocks.across(), blocks.down(), spread)
+                                   : Smoothing(view, blocks.across(), blocks.down(), spread, find_texture)});
 }
 
 LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate layer) {
   const auto level = std::ranges::find(levels_, blocks.edge, [](const Level& of) { return of.blocks.edge; });
-  level->smoothing.spread(layer.rgb, layer.draw);
+  level->smoothing.spread_light(layer.rgb, layer.draw);
   add_hidden(blocks, layer);
   return between(blocks, layer);
 }
 
 void BlockSmoothing::spread(LayerEstimate& caustics) {
-  if (in_pixels_) return pixels().spread(caustics.rgb, caustics.draw);
+  for (std::vector<float>* values : {&caustics.rgb, &caustics.draw}) pixels().take_textures_out(*values);
+  spread_light(caustics);
+  for (std::vector<float>* values : {&caustics.rgb, &caustics.draw}) pixels().put_textures_in(*values);
+}
+
+void BlockSmoothing::spread_light(LayerEstimate& caustics) {
   std::size_t chosen = levels_.size() - 1;
   if (first_.edge > 1) {
     const double needed = pixels_needed(first_, means(first_, caustics));
@@ -98,11 +103,11 @@ void BlockSmoothing::spread(LayerEstimate& caustics) {
 
 LayerEstimate BlockSmoothing::spread_in(Level& level, LayerEstimate plain) {
   if (level.blocks.edge == 1) {
-    level.smoothing.spread(plain.rgb, plain.draw);
+    level.smoothing.spread_light(plain.rgb, plain.draw);
     return plain;
   }
   LayerEstimate blocks = means(level.blocks, plain);
-  level.smoothing.spread(blocks.rgb, blocks.draw);
+  level.smoothing.spread_light(blocks.rgb, blocks.draw);
   return between(level.blocks, blocks);
 }
 

@@ -28,7 +28,7 @@ public:
   /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
   /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in the results of smaller
-  /// and larger blocks where the halves show a gain (mixture.h). In a scene with textures only pixels are spread.
+  /// and larger blocks where the halves show a gain (mixture.h). All that without textures.
   void spread(LayerEstimate& caustics);
 
 private:
@@ -37,10 +37,10 @@ private:
     Smoothing smoothing;
   };
   static LayerEstimate spread_in(Level& level, LayerEstimate plain);
+  void spread_light(LayerEstimate& caustics);
 
   std::vector<Level> levels_; ///< edges from twice first_preview_edge down to 1, each half of the one before
   Blocks first_;
-  bool in_pixels_; ///< blocks would blur textures
 };
 
 } // namespace nephroid::photons

@@ -5,10 +5,7 @@
 #include "base/summed_area.h"
 #include "photons/mixture.h"
 #include "photons/pixel_surfaces.h"
-#include "photons/plan_part.h"
 #include "tracing/world.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -315,6 +312,9 @@ std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& sc
 Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread, FindTexture find_texture)
     : width_(width), height_(height), spread_(spread), view_(std::move(view)), find_texture_(std::move(find_texture)) {}
 
+Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread)
+    : width_(width), height_(height), spread_(spread), view_(std::move(view)), has_textures_(false) {}
+
 void Smoothing::find_surfaces() {
   if (!view_) return;
   const std::shared_ptr<const View> view = std::move(view_);
@@ -337,9 +337,9 @@ void Smoothing::find_surfaces() {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto& [first, last, way, spacing] = pixels[i];
     // What a rough surface shows has no outlines and no texture left, but for its own.
-    const bool is_rough = is_so(first.object, scatter::is_rough);
+    const bool is_rough = is_so(first.object, scatter::is_rough), is_blurred = is_rough && first.object != last.object;
     knows_texture[i] =
-        !texture_.empty() && first.object == last.object && is_so(last.object, scatter::is_light_times_texture);
+        (!texture_.empty() || !has_textures_) && !is_blurred && is_so(last.object, scatter::is_light_times_texture);
     const bool has_detail = (is_so(last.object, scatter::has_pictures) && !is_rough && !knows_texture[i]) ||
                             is_so(first.object, scatter::has_rough_texture) ||
                             is_so(first.object, scatter::has_tint_texture);
@@ -362,8 +362,14 @@ void Smoothing::find_surfaces() {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;
   });
-  for (std::size_t i = 0; i < texture_.size(); ++i) // at an edge the texture is only a part of what a pixel shows
-    if (!knows_texture[i / 3] || seen[i / 3].at_edge) texture_[i] = 1;
+  // Blocks reach beyond what shows a texture: light without one is about as strong there if it has the mean texture.
+  for (std::size_t c = 0; c < 3 && !texture_.empty(); ++c) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < knows_texture.size(); ++i)
+      if (knows_texture[i]) sum += texture_[3 * i + c], ++count;
+    for (std::size_t i = 0; i < knows_texture.size(); ++i)
+      if (!knows_texture[i]) texture_[3 * i + c] = count > 0 ? static_cast<float>(sum / count) : 1;
+  }
   level_.resize(seen.size());
   for_ranges(seen.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
@@ -384,8 +390,25 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
          (sizeof(PixelSurfaces) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
+void Smoothing::take_textures_out(std::vector<float>& values) {
+  find_surfaces();
+  if (!texture_.empty()) std::ranges::transform(values, texture_, values.begin(), std::divides());
+}
+
+void Smoothing::put_textures_in(std::vector<float>& values) const {
+  if (!texture_.empty()) std::ranges::transform(values, texture_, values.begin(), std::multiplies());
+}
+
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known,
                        double noise) {
+  std::vector<float> known_light(known.begin(), known.end());
+  for (std::vector<float>* values : {&rgb, &error_draw, &known_light}) take_textures_out(*values);
+  spread_light(rgb, error_draw, known_light, noise);
+  for (std::vector<float>* values : {&rgb, &error_draw}) put_textures_in(*values);
+}
+
+void Smoothing::spread_light(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known,
+                             double noise) {
   if (error_draw.empty()) return;
   find_surfaces();
   const auto keep_lamps = [&](const std::vector<float>& from, std::vector<float>& to) {
@@ -393,9 +416,6 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
       for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) to[c] = from.empty() ? 0 : from[c];
   };
   const std::vector<float> rgb_before = rgb, draw_before = error_draw;
-  std::vector<float> known_light(known.begin(), known.end());
-  for (std::vector<float>* values : {&rgb, &error_draw, &known_light})
-    for (std::size_t i = 0; i < values->size() && !texture_.empty(); ++i) (*values)[i] /= texture_[i];
   keep_lamps({}, rgb);
   keep_lamps({}, error_draw);
   const std::vector<double> light = light_of(rgb);
@@ -432,60 +452,12 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
     rgb_spread = spread_by(kernels, rgb);
   }
   std::vector<float> draw_spread = spread_by(kernels, error_draw);
-  if (!known.empty()) mix(rgb, error_draw, {known_light, {}}, light, width_, height_, rgb_spread, draw_spread);
+  if (!known.empty()) mix(rgb, error_draw, {known, {}}, light, width_, height_, rgb_spread, draw_spread);
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
-  for (std::vector<float>* values : {&rgb_spread, &draw_spread})
-    for (std::size_t i = 0; i < values->size() && !texture_.empty(); ++i) (*values)[i] *= texture_[i];
   keep_lamps(rgb_before, rgb_spread);
   keep_lamps(draw_before, draw_spread);
   rgb = std::move(rgb_spread);
   error_draw = std::move(draw_spread);
 }
-
-namespace {
-
-bool is_of_use(const PlanInput& input) { return input.has_caustics() || indirect_decision(input).runs; }
-
-plan::Decision smoothing_decision(const PlanInput& input) {
-  const char* const name = "smoothing";
-  using Choice = Settings::Smoothing;
-  const Choice choice = input.settings.smoothing;
-  if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
-  if (!is_of_use(input)) return {name, false, "there are no caustics and no light of walls"};
-  if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
-  if (input.scene.camera.lens_radius > 0)
-    return {name, false, "scene.camera.aperture: a pixel shows several surfaces at once"};
-  if (!input.estimate.runs)
-    return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
-  if (input.preset.stop.passes == 1)
-    return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
-  if (input.settings.estimator == Settings::Estimator::tiles && !tracing::may_see_glass_or_mirror(input.scene) &&
-      !input.tables.has_even_sky && !indirect_decision(input).runs)
-    return {name, false, "tiles are as wide as their cells, and the camera sees no glass and no mirror"};
-  return {
-      name, true,
-      fmt::format("a pixel's caustics are spread until their noise is {} of them, what paths from the eye see further, "
-                  "{}; the estimated error takes in how far it goes",
-                  Smoothing::usual_noise,
-                  choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
-}
-
-PlanPart plan_smoothing(const PlanInput& input) {
-  const plan::Decision pass = smoothing_decision(input);
-  PlanPart part;
-  if (is_of_use(input)) part.decisions = {pass};
-  if (pass.runs) part.buffers = {{"surfaces in pixels (host)", Smoothing::bytes(input.scene, input.bvh), true}};
-  if (input.settings.smoothing != Settings::Smoothing::on) return part;
-  if (!pass.runs)
-    part.notes = {"spectral.smoothing: on does nothing here: " + pass.reason};
-  else if (input.preset.stop.error && !input.preset.reference)
-    part.notes = {
-        "stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does"};
-  return part;
-}
-
-} // namespace
-
-const RunPart smoothing_part{plan_smoothing};
 
 } // namespace nephroid::photons

@@ -42,13 +42,18 @@ public:
   /// Sends one ray through the middle of every pixel of a picture of width x height, on every core. Light is spread
   /// within one nearly flat part of the diffuse object that the pixel shows, be it directly, in a mirror or through
   /// glass. Along the object's outline it stays there. Where glass or a mirror shows none, is rough, or pulls
-  /// neighbours far apart, light is spread within one nearly flat part of it. Where a texture of colour is seen
-  /// directly, the light without it is spread; where one is seen otherwise, but in what is rough, light stays. The rays
-  /// would hold up a preview, so they wait until the first call of find_surfaces() or spread(). find_texture: makes the
-  /// colours [pixel][3] of textures that are seen directly, linear RGB; none where light stays there, too.
+  /// neighbours far apart, light is spread within one nearly flat part of it. The light without a texture of colour is
+  /// spread where that is known, else light stays. The rays would hold up a preview, so they wait until the surfaces
+  /// are needed. find_texture: makes the colours [pixel][3] of the textures that are seen, linear RGB, not 0.
   using FindTexture = std::function<std::vector<float>()>;
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread, FindTexture find_texture);
+  /// For light that comes without textures.
+  Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void find_surfaces();
+
+  /// Divides [pixel][3] by the textures, or multiplies by them again.
+  void take_textures_out(std::vector<float>& values);
+  void put_textures_in(std::vector<float>& values) const;
 
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
 
@@ -59,6 +64,9 @@ public:
   /// show to be best (mixture.h). noise: as usual_noise, for this light.
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known = {},
               double noise = usual_noise);
+  /// The same where textures are taken out.
+  void spread_light(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known = {},
+                    double noise = usual_noise);
 
   /// Where a pixel's light may go: a bit for each pixel within reach, nearest first, lowest bit first.
   using Level = std::array<std::uint64_t, 2>;
@@ -67,6 +75,7 @@ private:
   int width_, height_;
   Spread spread_;
   std::shared_ptr<const View> view_; ///< null once the surfaces are found
+  bool has_textures_ = true;         ///< whether the light that comes has them
   FindTexture find_texture_;
   std::vector<float> texture_;     ///< of find_texture_
   std::vector<Level> level_;       ///< [pixel]

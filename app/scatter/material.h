@@ -55,9 +55,9 @@ inline bool has_normal_map(const Material& material) { return material.normal_ma
 /// Whether a texture colours the light that passes.
 inline bool has_tint_texture(const Material& material) { return is_refractive(material.type) && is_textured(material); }
 
-/// Whether all that it sends to an eye is the light on it times its texture.
+/// Whether what it sends to an eye is the light on it times its texture, but for a coat's reflection.
 inline bool is_light_times_texture(const Material& material) {
-  return material.type == preset::Material::Type::diffuse && is_textured(material) && !has_normal_map(material);
+  return is_matt(material.type) && is_textured(material) && !has_normal_map(material);
 }
 
 /// Whether it looks up places by u, v.

@@ -47,10 +47,10 @@ static inline float3 light_of_layer(const World* world, const Receivers* on, Sou
 // energy counts what photons carry, whatever a smooth receiver's shading normals make of it.
 PHOTON_KERNEL(photons, (WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
                         volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                        volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
-                        volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
-                        __global const float* guide,                                  // ... [light][GUIDE_FLOATS]
-                        __global StoredPhoton* stored,                                // with NEPHROID_STORE: [photon]
+                        volatile __global long* moments,                            // with NEPHROID_MOMENTS: [emitter]
+                        volatile __global long* guide_moments,                      // ... [light][GUIDE_CELLS]
+                        __global const float* guide,                                // ... [light][GUIDE_FLOATS]
+                        __global StoredPhoton* stored,                              // with NEPHROID_STORE: [photon]
                         __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
                         DeviceCamera camera, DevicePhotonLaunch launch),
                        (WORLD_NAMES, emitters, film, energy, moments, guide_moments, guide, stored, receiver_table,

@@ -5,8 +5,8 @@
 
 static inline uint work_item(void) { return (uint)(get_global_id(1) * get_global_size(0) + get_global_id(0)); }
 
-// ITEM_KERNEL(name, (parameters), (their names)) { ... } is the kernel `name`, whose work item `index` runs the body. PoCL
-// compiles a kernel three times, for three ways to launch it, but a function that it calls once.
+// ITEM_KERNEL(name, (parameters), (their names)) { ... } is the kernel `name`, whose work item `index` runs the body.
+// PoCL compiles a kernel three times, for three ways to launch it, but a function that it calls once.
 #define WITHOUT_BRACKETS(...) __VA_ARGS__
 #define ITEM_KERNEL(name, parameters, names)                                                                           \
   COMPILED_ONCE void name##_item(uint index, WITHOUT_BRACKETS parameters);                                             \

@@ -88,8 +88,9 @@ TEST_F(Smoothing, leaves_what_shows_a_texture_as_it_is) {
   EXPECT_EQ(photons.rgb, before);
 }
 
-// Even light of 2 photons a pixel on stripes, two pixels wide, of 1 and 1/4.
+// Even light of 2 photons a pixel on stripes, two pixels wide, of 1 and 1/4, below a coat.
 TEST_F(Smoothing, spreads_light_on_a_texture_without_it) {
+  scene.materials[0].type = preset::Material::Type::plastic;
   scene.materials[0].texture = std::make_shared<scatter::Texture>();
   std::vector<float> texture;
   for (int i = 0; i < size * size; ++i) texture.insert(texture.end(), 3, i / 2 % 2 == 0 ? 1.0f : 0.25f);
