@@ -6,7 +6,6 @@
 #include "kernels/lights/targets.h"
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/outcomes.h"
-#include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
 
 #ifndef NEPHROID_PHOTONS_PER_ITEM

@@ -4,7 +4,7 @@
 #define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/eye_walk.h"
 #include "kernels/transport/piece.h"
 

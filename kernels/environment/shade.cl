@@ -5,7 +5,7 @@
 #define NEPHROID_MATERIALS (1 << MATERIAL_DIFFUSE) // see.cl has let its light pass coats already
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/eye_path.h"
 #include "kernels/transport/piece.h"
 

@@ -7,7 +7,7 @@
 #endif
 #define NEPHROID_PLACE_DIFFERENTIALS NEPHROID_SKY_IS_LIGHT
 #include "kernels/photons/launch_types.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/branches.h"
 #include "kernels/transport/eye_band.h"
 #include "kernels/transport/piece.h"

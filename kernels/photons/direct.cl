@@ -19,7 +19,7 @@
 #if NEPHROID_RECEIVERS
 #include "kernels/photons/receiver_look.h"
 #endif
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 
 // The XYZ radiance that paths bring: of lamps, and of light on receivers, that in quanta per square unit.
 typedef struct {

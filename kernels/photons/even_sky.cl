@@ -3,7 +3,7 @@
 // glass and mirrors to the first diffuse surface, and on through glass and mirrors to the sky. Light that comes from
 // everywhere is found more surely from where it falls than from where it starts.
 #include "kernels/photons/launch_types.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/eye_band.h"
 #include "kernels/transport/eye_walk.h"
 

@@ -9,7 +9,7 @@
 #define NEPHROID_COATED 0
 #endif
 #include "kernels/photons/launch_types.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/eye_band.h"
 #include "kernels/transport/eye_path.h"
 #include "kernels/transport/scatter_path.h"

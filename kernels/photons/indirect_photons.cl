@@ -7,7 +7,6 @@
 #include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
 #include "kernels/photons/receiver.h"
-#include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
 
 typedef struct {

@@ -8,7 +8,6 @@
 #include "kernels/photons/receiver.h"
 #include "kernels/photons/store.h"
 #include "kernels/photons/stretch.h"
-#include "kernels/tracing/work_item.h"
 
 // 1: photons are guided to where they matter, and that is measured.
 #ifndef NEPHROID_MOMENTS

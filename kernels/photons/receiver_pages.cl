@@ -2,7 +2,7 @@
 // Which texels paths from the eye ask for: where light is kept on receivers (app/photons/receivers), and how fine.
 #define NEPHROID_PLACE_DIFFERENTIALS 1
 #include "kernels/photons/receiver_look.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/branches.h"
 #include "kernels/transport/eye_band.h"
 

@@ -4,7 +4,7 @@
 // its own. Before the first pass a survey finds the reflectors that each pixel sees.
 #include "kernels/photons/launch_types.h"
 #include "kernels/photons/layers.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/eye_walk.h"
 
 // Each work item finds the reflector at each fixed place of one pixel, -1 where there is none.

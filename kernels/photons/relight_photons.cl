@@ -4,7 +4,6 @@
 #include "kernels/photons/layers.h"
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
-#include "kernels/tracing/work_item.h"
 
 // All lamps have 1 W or 1 W m^-2. An emitter's `share` is its cluster's present power in the unit of energy_scale, for
 // the energy counters. Every photon counts alike.

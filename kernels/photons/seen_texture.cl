@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The textures that the camera sees: light is spread over pixels without them.
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/eye_path.h"
 #include "kernels/transport/eye_walk.h"
 

@@ -7,7 +7,6 @@
 #include "kernels/photons/launch_types.h"
 #include "kernels/photons/receiver.h"
 #include "kernels/photons/stretch.h"
-#include "kernels/tracing/work_item.h"
 #include "kernels/transport/scatter_path.h"
 
 // The part of a photon's light below which not every point of the lattice follows what is left: one of 4, then of 16,

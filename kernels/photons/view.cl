@@ -4,7 +4,7 @@
 #include "kernels/photons/launch_types.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 #include "kernels/transport/eye_walk.h"
 
 // The factors of X, Y and Z by which a path reduces the light that it brings to the eye. A single wavelength has its

@@ -6,7 +6,7 @@
 // PHOTON_KERNEL(name, (parameters), (their names)) { ... } is an ITEM_KERNEL that adds its `outcomes` to its `energy`.
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/work_item.h"
+#include "kernels/tracing/item_kernel.h"
 
 #define PHOTON_KERNEL(name, parameters, names)                                                                         \
   COMPILED_ONCE void name##_item(uint index, Outcomes outcomes, WITHOUT_BRACKETS parameters);                          \

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compares smoothing with Open Image Denoise on ten scenes, at equal time.
+"""Compares smoothing with Open Image Denoise on ten presets, or on those named, at equal time.
 
-    tests/experiments/denoise.py PROGRAM OUT [--seconds S] [--reference S]
+    tests/experiments/denoise.py PROGRAM OUT [--seconds S] [--reference S] [PRESET...]
 
 It asks for numpy, ImageMagick, and pyoidn of PyPI. Each scene is run for S seconds (10) as it comes, and without
 smoothing; the second picture goes to Open Image Denoise, which gets no albedo and no normals. The reference is a run of
@@ -46,12 +46,13 @@ def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("program")
     parser.add_argument("out", type=Path)
+    parser.add_argument("presets", nargs="*", default=SCENES)
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--reference", type=float, default=120)
     asked = parser.parse_args()
     asked.out.mkdir(parents=True, exist_ok=True)
     print("| scene | without smoothing | smoothed | Open Image Denoise | its seconds |\n|---|---|---|---|---|")
-    for preset in SCENES:
+    for preset in asked.presets:
         name = preset.split("/")[-1]
         folder = asked.out / name
         reference = run(asked.program, preset, folder / "reference", asked.reference, "spectral.smoothing=off",
