@@ -25,7 +25,8 @@ public:
                  Smoothing::FindTexture find_texture);
 
   Smoothing& pixels() { return levels_.back().smoothing; }
-  /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each.
+  /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each. It blurs
+  /// textures: to find them would hold up a preview.
   LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
   /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in the results of smaller
   /// and larger blocks where the halves show a gain (mixture.h). All that without textures.

@@ -401,6 +401,7 @@ void Smoothing::put_textures_in(std::vector<float>& values) const {
 
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known,
                        double noise) {
+  if (error_draw.empty()) return;
   std::vector<float> known_light(known.begin(), known.end());
   for (std::vector<float>* values : {&rgb, &error_draw, &known_light}) take_textures_out(*values);
   spread_light(rgb, error_draw, known_light, noise);

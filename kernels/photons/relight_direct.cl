@@ -9,8 +9,8 @@
 
 // Each work item finds the reflector at each fixed place of one pixel, -1 where there is none.
 ITEM_KERNEL(survey, (WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
-                     __global int* bent),
-                    (WORLD_NAMES, camera, seed, unbent, bent)) { // [pixel][SURVEY_PLACES * SURVEY_PATHS]
+                     __global int* bent), // [pixel][SURVEY_PLACES * SURVEY_PATHS]
+                    (WORLD_NAMES, camera, seed, unbent, bent)) {
   const World world = WORLD;
   const int pixel = (int)index;
   if (pixel >= camera.width * camera.height) return;
