@@ -4,6 +4,7 @@
 #include "photons/mixture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -34,6 +35,31 @@ void add_hidden(const Blocks& blocks, LayerEstimate& layer) {
   }
 }
 
+/// `of` with the colours of `colour`, whose light is not needed: both halves of it. A place without light in `colour`
+/// stays as it is.
+LayerEstimate recoloured(const LayerEstimate& of, const LayerEstimate& colour) {
+  LayerEstimate result = of;
+  for (std::size_t i = 0; i < of.rgb.size(); i += 3) {
+    std::array<float, 3> half[2];
+    for (int h = 0; h < 2; ++h) {
+      const float sign = h == 0 ? 1.0f : -1.0f;
+      float light = 0, coloured = 0;
+      for (std::size_t c = i; c < i + 3; ++c) {
+        light += of.rgb[c] + sign * of.draw[c];
+        coloured += std::max(colour.rgb[c] + sign * colour.draw[c], 0.0f);
+      }
+      for (std::size_t c = 0; c < 3; ++c)
+        half[h][c] = coloured > 0 ? std::max(colour.rgb[i + c] + sign * colour.draw[i + c], 0.0f) * light / coloured
+                                  : of.rgb[i + c] + sign * of.draw[i + c];
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      result.rgb[i + c] = (half[0][c] + half[1][c]) / 2;
+      result.draw[i + c] = (half[0][c] - half[1][c]) / 2;
+    }
+  }
+  return result;
+}
+
 } // namespace
 
 LayerEstimate means(const Blocks& blocks, const LayerEstimate& layer) {
@@ -55,9 +81,9 @@ BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh,
                                    : Smoothing(view, blocks.across(), blocks.down(), spread, find_texture)});
 }
 
-LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate layer) {
+LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate layer, double noise) {
   const auto level = std::ranges::find(levels_, blocks.edge, [](const Level& of) { return of.blocks.edge; });
-  level->smoothing.spread_light(layer.rgb, layer.draw);
+  level->smoothing.spread_light(layer.rgb, layer.draw, {}, noise);
   add_hidden(blocks, layer);
   return between(blocks, layer);
 }
@@ -75,19 +101,24 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
     while (chosen > 0 && needed / levels_[chosen].blocks.edge / levels_[chosen].blocks.edge > most_needed) --chosen;
   }
   if (levels_[chosen].blocks.edge >= first_.edge && first_.edge > 1) { // single pixels hold next to nothing
-    caustics = pixels_of(levels_[chosen].blocks, means(levels_[chosen].blocks, caustics));
+    caustics = pixels_of(levels_[chosen].blocks, means(levels_[chosen].blocks, caustics), Smoothing::usual_noise);
     return;
   }
   const LayerEstimate& plain = caustics;
   const std::vector<double> light = light_of(plain.rgb),
                             portion = portions(light, plain.draw, first_.width, first_.height);
-  LayerEstimate mixed = spread_in(levels_[chosen], plain);
+  std::vector<LayerEstimate> spread(levels_.size()); // by block
+  const auto spread_in_level = [&](std::size_t level) {
+    if (spread[level].rgb.empty()) spread[level] = spread_in(levels_[level], plain);
+    return between(levels_[level].blocks, spread[level]);
+  };
+  LayerEstimate mixed = spread_in_level(chosen);
   const auto mix_in = [&](const LayerEstimate& estimate) {
     mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb,
         mixed.draw);
   };
   for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
-    LayerEstimate fine = spread_in(levels_[finer], plain);
+    LayerEstimate fine = spread_in_level(finer);
     // Where few portions fell, or none, their noise is unknown: there nothing supports the finer estimate.
     constexpr double least_portions = 16, around = 15 * 15; // pixels
     const std::vector<double> coarse_light = light_of(mixed.rgb);
@@ -96,19 +127,18 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) fine.rgb[c] = mixed.rgb[c], fine.draw[c] = mixed.draw[c];
     mix_in(fine);
   }
-  for (std::size_t coarser = chosen; coarser > 0 && levels_[coarser - 1].blocks.edge < first_.edge; --coarser)
-    mix_in(spread_in(levels_[coarser - 1], plain));
+  const auto is_small = [&](std::size_t level) { return levels_[level].blocks.edge < first_.edge; };
+  for (std::size_t level = chosen; level-- > 0 && is_small(level);) mix_in(spread_in_level(level));
+  // Colours have more noise than light.
+  for (std::size_t level = levels_.size() - 1; level-- > 0 && is_small(level);)
+    mix_in(recoloured(mixed, spread_in_level(level)));
   caustics = std::move(mixed);
 }
 
-LayerEstimate BlockSmoothing::spread_in(Level& level, LayerEstimate plain) {
-  if (level.blocks.edge == 1) {
-    level.smoothing.spread_light(plain.rgb, plain.draw);
-    return plain;
-  }
+LayerEstimate BlockSmoothing::spread_in(Level& level, const LayerEstimate& plain) {
   LayerEstimate blocks = means(level.blocks, plain);
   level.smoothing.spread_light(blocks.rgb, blocks.draw);
-  return between(level.blocks, blocks);
+  return blocks;
 }
 
 } // namespace nephroid::photons

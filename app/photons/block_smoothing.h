@@ -26,10 +26,10 @@ public:
 
   Smoothing& pixels() { return levels_.back().smoothing; }
   /// Returns a preview's layer, smoothed, by pixel. blocks are the preview's; `layer` has a value for each. It blurs
-  /// textures: to find them would hold up a preview.
-  LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
+  /// textures: to find them would hold up a preview. noise: as Smoothing::usual_noise.
+  LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer, double noise);
   /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in the results of smaller
-  /// and larger blocks where the halves show a gain (mixture.h). All that without textures.
+  /// and larger blocks where the halves show a gain (mixture.h), and at last their colours. All that without textures.
   void spread(LayerEstimate& caustics);
 
 private:
@@ -37,7 +37,8 @@ private:
     Blocks blocks;
     Smoothing smoothing;
   };
-  static LayerEstimate spread_in(Level& level, LayerEstimate plain);
+  /// The result is by block.
+  static LayerEstimate spread_in(Level& level, const LayerEstimate& plain);
   void spread_light(LayerEstimate& caustics);
 
   std::vector<Level> levels_; ///< edges from twice first_preview_edge down to 1, each half of the one before

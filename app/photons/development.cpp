@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/development.h"
 
+#include "base/summed_area.h"
 #include "photons/mixture.h"
 #include "tracing/film.h"
 
@@ -27,6 +28,26 @@ void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
   add(layer.draw, picture.error_draw);
   std::vector<float>& sum = tracing::layer_of(picture, name).rgb;
   add(layer.rgb, sum);
+}
+
+/// The pixels where one path would be confetti: in many blocks around them the two paths of a preview differ by more
+/// than light that is lit evenly has. Few blocks do at the edge of a shadow; a fine texture of strong contrast passes
+/// for noise.
+std::vector<bool> where_paths_are_noisy(const Blocks& blocks, const LayerEstimate& coarse) {
+  constexpr int radius = 3;
+  constexpr double noise = 0.2, many_of_them = 0.4;
+  const SummedArea noisy(blocks.across(), blocks.down(), [&](std::size_t i) {
+    double square = 0, light = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3 && !coarse.draw.empty(); ++c)
+      square += std::pow(coarse.draw[c], 2), light += coarse.rgb[c];
+    return square / 3 > std::pow(noise * light / 3, 2) ? 1.0 : 0.0;
+  });
+  std::vector<bool> result(static_cast<std::size_t>(blocks.width) * static_cast<std::size_t>(blocks.height));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const int block = static_cast<int>(blocks.block_of(i));
+    result[i] = noisy.mean(block % blocks.across(), block / blocks.across(), radius) > many_of_them;
+  }
+  return result;
 }
 
 } // namespace
@@ -135,14 +156,15 @@ void Development::share_work() {
   }
 }
 
-LayerEstimate Development::preview_of(Stage& stage) {
+LayerEstimate Development::preview_of(Stage& stage, double noise, std::vector<bool>* noisy) {
   const Blocks& blocks = world_.preview.blocks;
   job::Picture picture = black(blocks);
   stage.develop_preview(picture);
   if (picture.layers.empty()) return {};
   LayerEstimate coarse{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
+  if (noisy) *noisy = where_paths_are_noisy(blocks, coarse);
   if (!smoothing_) return between(blocks, coarse);
-  timed([&] { pixels = smoothing_->pixels_of(blocks, std::move(coarse)); });
+  timed([&] { pixels = smoothing_->pixels_of(blocks, std::move(coarse), noise); });
   return pixels;
 }
 
@@ -151,7 +173,8 @@ LayerEstimate Development::layer_of(std::size_t s) {
   const bool is_estimated = !estimate_.empty() && passes_.stages()[s].layer == std::string_view("direct");
   const bool whole = passes_.complete() > 0 || passes_.had_turn(s);
   const bool is_previewed = preview_.has_picture() && !passes_.has_halves(s) && (!whole || smoothing_);
-  LayerEstimate preview = is_previewed ? preview_of(stage) : LayerEstimate();
+  std::vector<bool> noisy;
+  LayerEstimate preview = is_previewed ? preview_of(stage, noise_of_paths, &noisy) : LayerEstimate();
   if (is_estimated && !passes_.has_halves(s)) {
     if (preview.rgb.empty()) return {estimate_, {}};
     for (std::size_t i = 0; i < estimate_.size(); ++i)
@@ -163,9 +186,9 @@ LayerEstimate Development::layer_of(std::size_t s) {
   stage.develop(passes_.complete(), passes_.had_turn(s), picture);
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
   if (preview.rgb.empty()) timed([&] { mix_with_before(stage.name(), layer); });
-  if (!preview.rgb.empty()) { // a single sample of each pixel: it shows all of a wall, and little of glass
+  if (!preview.rgb.empty()) { // a single sample of each pixel: it shows all of an evenly lit wall, and little of glass
     for (std::size_t i = 0; i < layer.rgb.size(); ++i)
-      if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
+      if (world_.pixels.may_show_glass[i / 3] || noisy[i / 3]) layer.rgb[i] = preview.rgb[i];
     layer.draw = std::move(preview.draw);
   } else if (smoothing_ && smooths_paths_ && passes_.has_halves(s)) {
     timed([&] {
@@ -188,7 +211,7 @@ LayerEstimate Development::caustics() {
     if (!smoothing_ || passes_.has_halves(s) || !preview_.has_picture()) {
       timed_stage.stage->develop(passes_.complete(), passes_.had_turn(s), picture);
     } else {
-      LayerEstimate more = preview_of(*timed_stage.stage);
+      LayerEstimate more = preview_of(*timed_stage.stage, Smoothing::usual_noise);
       add(preview.rgb, more.rgb);
       add(preview.draw, more.draw);
       if (!more.rgb.empty()) preview = std::move(more);

@@ -66,7 +66,7 @@ public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
             const mpi::RankContext& context)
       : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables,
-               preset.white.value(), plan.estimates_error ? 2u : 1u},
+               preset.white.value_or(1), plan.estimates_error ? 2u : 1u},
         preset_(preset), why_no_layers_(plan.why_no_layers), passes_(plan.tables.batches),
         preview_(world_, edges_of_previews(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(world_, plan, scene, bvh), !plan.runs(tile_stage),
@@ -172,7 +172,7 @@ public:
     if (!world_.relighting || !engine::adoptable(preset_, preset)) return false;
     change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
-    world_.white = preset.white.value();
+    world_.white = preset.white.value_or(1);
     passes_.begin_energy();
     return true;
   }

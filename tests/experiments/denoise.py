@@ -49,7 +49,7 @@ def main():
     parser.add_argument("presets", nargs="*", default=SCENES)
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--reference", type=float, default=120)
-    asked = parser.parse_args()
+    asked = parser.parse_intermixed_args()
     asked.out.mkdir(parents=True, exist_ok=True)
     print("| scene | without smoothing | smoothed | Open Image Denoise | its seconds |\n|---|---|---|---|---|")
     for preset in asked.presets:

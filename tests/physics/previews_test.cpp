@@ -50,6 +50,29 @@ TEST(Previews, AreWholeAndGetBetter) {
   RecordProperty("rel_l2 of both first pictures, and of one pass", testing::PrintToString(errors));
 }
 
+// A path sees one of three lamps at a time, each of its colour: one path a pixel is confetti. The preview stays until
+// the second pass.
+TEST(Previews, StayWhereOnePathOfAPixelShowsLittle) {
+  preset::Preset p = seen_through_glass();
+  p.scene.lights.clear();
+  p.scene.environment =
+      preset::Environment{.file = NEPHROID_SOURCE_DIR "/presets/spectral/three-lamps.hdr", .lights = true};
+  const auto job = test::job_as_it_is(p);
+  while (job->progress().step < 1) job->advance();
+  const job::Picture picture = *job->snapshot().picture;
+  preset::Preset without_previews = p;
+  without_previews.stop.passes = 1;
+  const job::Snapshot confetti = test::render_as_it_is(without_previews);
+  // The means of neighbours' differences over the picture's light, in its lower half: the floor.
+  const auto noise_of = [](const job::Picture& of) {
+    double differences = 0, light = 0;
+    for (std::size_t c = of.rgb.size() / 2; c + 3 < of.rgb.size(); ++c)
+      differences += std::abs(of.rgb[c + 3] - of.rgb[c]), light += of.rgb[c];
+    return differences / light;
+  };
+  EXPECT_LT(noise_of(picture), 0.2 * noise_of(*confetti.picture));
+}
+
 // Where the camera sees the sky alone, there is nothing but that; where photons_per_pass is small, no round of photons
 // is to spare.
 TEST(Previews, ARunMayHaveNoPhotonsForThem) {

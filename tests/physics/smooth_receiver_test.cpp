@@ -148,6 +148,7 @@ TEST(SmoothReceiver, SendsOnWhatItGetsByItsNormals) {
   preset::Preset p = empty_preset(24);
   p.scene.materials = {{"white", white(0.8)}};
   p.scene.objects = {leaning_tile(folder.path()), object("wall", quad(1, 1), "white", at({0.6, 0.5, 0}, {0, 0, 90}))};
+  p.scene.objects[0].normals = preset::Object::Normals::faceted;
   p.scene.lights = {parallel_light({0, -1, 0})};
   p.scene.camera.position = {-2, 1, 0};
   p.scene.camera.target = {0.6, 0.5, 0};

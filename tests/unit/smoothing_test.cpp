@@ -354,6 +354,31 @@ TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even) {
   EXPECT_LT(noise2, 0.25 * noise2_before);
 }
 
+// Photons of one colour each in bright and dark columns. The light keeps its columns, and grey is what they are.
+TEST_F(Smoothing, in_blocks_evens_colours_further_than_light) {
+  const auto density = [](int x, int) { return x % 6 < 3 ? 30.0 : 6.0; };
+  Photons photons = scatter(density, 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Photons of_a_colour = scatter(density, 10 + static_cast<unsigned>(c));
+    for (std::size_t i = c; i < photons.rgb.size(); i += 3)
+      photons.rgb[i] = of_a_colour.rgb[i], photons.error_draw[i] = of_a_colour.error_draw[i];
+  }
+  photons::BlockSmoothing blocks(scene, bvh, photons::Smoothing::Spread::where_it_helps, 8, {});
+  photons::LayerEstimate layer{photons.rgb, photons.error_draw};
+  blocks.spread(layer);
+  double colour2 = 0, light2 = 0, bright = 0, dark = 0;
+  for (int y = size / 2 + 8; y < size - 8; ++y)
+    for (int x = 8; x < size - 8; ++x) {
+      const float* rgb = layer.rgb.data() + 3 * static_cast<std::size_t>(y * size + x);
+      const double light = (double{rgb[0]} + rgb[1] + rgb[2]) / 3;
+      for (int c = 0; c < 3; ++c) colour2 += std::pow(rgb[c] - light, 2), light2 += light * light;
+      if (x % 6 == 1) bright += light;
+      if (x % 6 == 4) dark += light;
+    }
+  EXPECT_LT(std::sqrt(colour2 / light2), 0.05);
+  EXPECT_GT(bright, 3 * dark);
+}
+
 TEST_F(Smoothing, does_nothing_without_a_draw_or_in_the_dark) {
   Photons photons = scatter([](int, int) { return 1.0; }, 5);
   photons.error_draw.clear();

@@ -79,12 +79,11 @@ LayerLight layer_light(const preset::Preset& preset) {
     light.power.push_back(preset::radiometric(l));
   }
   if (preset.scene.environment)
-    if (const auto sun =
-            scene::make_sun(*preset.scene.environment, Location(preset.source) / "scene" / "environment")) {
+    if (const auto sun = scene::make_sun(*preset.scene.environment)) {
       light.spectra.push_back(sun->spectrum);
       light.power.push_back(sun->irradiance_w_m2);
     }
-  light.white = preset.white.value();
+  light.white = preset.white.value_or(1);
   return light;
 }
 
@@ -188,7 +187,7 @@ RunTables make_run_tables(const preset::Preset& preset, const Settings& settings
   if (!settings.relight) return make_lit_tables(settings, scene, bvh, leave_out);
   leave_out.dark_lights = leave_out.unlit_wavelengths = false;
   RunTables tables = make_lit_tables(settings, with_unit_lights(scene), bvh, leave_out);
-  const LayerLight light = layer_light(scene, preset.white.value());
+  const LayerLight light = layer_light(scene, preset.white.value_or(1));
   tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(settings.photons_per_pass));
   tables.photons_per_batch = count_photons(tables.emitters);
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());

@@ -62,7 +62,12 @@ std::vector<Disc> discs_of(const RunTables& tables, int light_index, std::array<
     sum += discs.back().part;
   }
   if (light.type == LIGHT_SPOT && light.as.spot.solid_angle <= 2 * pi * sum) return {{-1, 1}};
-  for (Disc& disc : discs) disc.part /= sum;
+  double photons = 0; // make_densities in kernels/lights/targets.h
+  for (Disc& disc : discs) {
+    const double by_size = disc.part / sum;
+    photons += disc.part = std::min(1 / static_cast<double>(discs.size()), double{MOST_CROWDED} * by_size) + by_size;
+  }
+  for (Disc& disc : discs) disc.part /= photons;
   return discs;
 }
 
