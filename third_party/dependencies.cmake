@@ -16,6 +16,7 @@ find_package(CLI11 REQUIRED)
 find_package(MPI QUIET COMPONENTS CXX) # without it a run is one process
 # OpenImageIO's own CMake package fails on Debian 12 without openimageio-tools; pkg-config works.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(lcms2 REQUIRED IMPORTED_TARGET lcms2)
 pkg_check_modules(qrencode REQUIRED IMPORTED_TARGET libqrencode)
 # What draws the charts of a report: a script that becomes part of every page.
 find_file(NEPHROID_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js REQUIRED)

@@ -209,7 +209,10 @@ Rgb rgb_of(const Image& picture, const std::string& name) {
     for (std::size_t c = 0; c < 3; ++c) rgb.values[3 * p + c] = picture.data[p * stride + layout.at[c]];
     if (alpha < stride) rgb.alpha.push_back(picture.data[p * stride + alpha]);
   }
-  if (picture.integers) decode(rgb.values, picture.gamma);
+  if (picture.integers && !picture.profile.empty())
+    module().apply_profile(picture.profile, rgb.values);
+  else if (picture.integers)
+    decode(rgb.values, picture.gamma);
   if (picture.chromaticities && !layout.grey) {
     const std::optional<glm::dmat3> to_srgb = matrix_to_srgb(*picture.chromaticities);
     if (!to_srgb)

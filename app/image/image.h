@@ -30,6 +30,7 @@ struct Image {
   bool integers = false;
   double gamma = 0;                               ///< of integers: the exponent that makes them linear; 0: sRGB's curve
   std::optional<Chromaticities> chromaticities{}; ///< where they are not Rec. 709's, which are sRGB's
+  std::string profile{};                          ///< of integers: the bytes of a profile (ICC) other than sRGB's
   double white_cd_m2 = 0;                         ///< luminance of (1, 1, 1), where the file says it (EXR)
   std::vector<std::string> notes{};               ///< what the file says and is not obeyed
 };
@@ -88,8 +89,8 @@ struct Rgb {
 };
 
 /// The picture's channels R, G, B or, alone or with alpha, Y; further layers are left out. Integers are not multiplied
-/// by alpha, floats are. XYZ stays what it is: white is not adapted. name: of the file, for messages. Throws bad_input
-/// where there are other channels.
+/// by alpha, floats are. A file's white becomes (1, 1, 1), other colours follow by the Bradford transform; XYZ stays
+/// what it is. name: of the file, for messages. Throws bad_input where there are other channels.
 Rgb rgb_of(const Image& picture, const std::string& name);
 
 /// 32-bit float EXR with every channel and attribute. The same image gives the same bytes:

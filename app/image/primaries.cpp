@@ -27,6 +27,14 @@ std::optional<glm::dmat3> matrix_to_xyz(const Chromaticities& c) {
   return glm::dmat3(strengths.x * primaries[0], strengths.y * primaries[1], strengths.z * primaries[2]);
 }
 
+/// As the eye adapts from the white of `from` to D65, in XYZ.
+glm::dmat3 adapted(const Chromaticities& from) {
+  const glm::dmat3 bradford(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296);
+  const auto cones = [&](const Chromaticities& c) { return bradford * *matrix_to_xyz(c) * glm::dvec3(1); };
+  const glm::dvec3 ratio = cones(rec_709) / cones(from);
+  return glm::inverse(bradford) * glm::dmat3(ratio.x, 0, 0, 0, ratio.y, 0, 0, 0, ratio.z) * bradford;
+}
+
 } // namespace
 
 std::optional<glm::dmat3> matrix_to_srgb(const Chromaticities& from) {
@@ -34,7 +42,9 @@ std::optional<glm::dmat3> matrix_to_srgb(const Chromaticities& from) {
   if (std::ranges::equal(from, rec_709, [](float a, float b) { return std::abs(a - b) < alike; })) return glm::dmat3(1);
   const std::optional<glm::dmat3> to_xyz = matrix_to_xyz(from);
   if (!to_xyz) return std::nullopt;
-  return glm::inverse(*matrix_to_xyz(rec_709)) * *to_xyz;
+  constexpr std::array<float, 6> of_xyz{1, 0, 0, 1, 0, 0};
+  const bool is_xyz = std::equal(of_xyz.begin(), of_xyz.end(), from.begin());
+  return glm::inverse(*matrix_to_xyz(rec_709)) * (is_xyz ? *to_xyz : adapted(from) * *to_xyz);
 }
 
 void convert(std::vector<float>& colours, const glm::dmat3& matrix) {

@@ -7,8 +7,9 @@
 
 namespace nephroid::image {
 
-/// From colours with these primaries to linear sRGB with the same XYZ (SMPTE RP 177-1993); Y is kept. The identity for
-/// those of Rec. 709 to three digits. Nothing where they span no triangle.
+/// From colours with these primaries to linear sRGB (SMPTE RP 177-1993): their white becomes (1, 1, 1), the others
+/// follow by the Bradford transform (ICC.1:2022, annex E). XYZ itself is kept. The identity for the primaries of Rec.
+/// 709 to three digits. Nothing where they span no triangle.
 std::optional<glm::dmat3> matrix_to_srgb(const Chromaticities& from);
 
 /// Three values a colour.

@@ -46,6 +46,8 @@ struct Module {
   /// The bytes of the file.
   std::vector<unsigned char> (*encode)(const Samples& picture);
   Image (*text)(const std::string& words, int height, const std::string& font);
+  /// Encoded colours of integers, three values each, become linear sRGB as Image::profile says.
+  void (*apply_profile)(const std::string& profile, std::vector<float>& rgb);
 };
 
 inline constexpr const char *module_name = "libnephroid_image_io.so", *module_symbol = "nephroid_image_module";

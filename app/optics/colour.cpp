@@ -77,28 +77,40 @@ Spectrum curved(const Spectrum& straight) {
   return g;
 }
 
+/// The three functions that all smoothest spectra are sums of: a constant, a straight line and a curve.
+std::array<Spectrum, 3> smoothest_ways() {
+  std::array<Spectrum, 3> ways{};
+  ways[0].fill(1);
+  for (std::size_t i = 0; i < ways[1].size(); ++i)
+    ways[1][i] = 2.0 * static_cast<double>(i) / (wavelength_count - 1) - 1;
+  ways[2] = curved(ways[1]);
+  return ways;
+}
+
+/// The amounts of three columns whose sum is a colour, by Cramer's rule.
+Colour amounts(const std::array<Colour, 3>& columns, const Colour& colour) {
+  const double determinant = dot(columns[0], cross(columns[1], columns[2]));
+  Colour amounts{};
+  for (std::size_t way = 0; way < 3; ++way)
+    amounts[way] = dot(colour, cross(columns[(way + 1) % 3], columns[(way + 2) % 3])) / determinant;
+  return amounts;
+}
+
 /// Among all spectra s with A s = b (A the three colour-matching functions, b an XYZ) the one with the smallest |D s|^2
 /// (D second differences) has D^T D s = A^T mu with Lagrange's multipliers mu (3 numbers). D loses straight lines, so
 /// v^T A^T mu = 0 for v = 1 and v = the wavelength: two conditions, which leave mu one number: it is orthogonal to A 1
 /// and to A (wavelength). So s is a sum of three fixed functions, a constant, a straight line and one curve, and the
 /// three equations A s = b say how much there is of each.
 std::array<Spectrum, 3> make_primary_spectra() {
-  std::array<Spectrum, 3> ways{};
-  ways[0].fill(1);
-  for (std::size_t i = 0; i < ways[1].size(); ++i)
-    ways[1][i] = 2.0 * static_cast<double>(i) / (wavelength_count - 1) - 1;
-  ways[2] = curved(ways[1]);
+  const std::array<Spectrum, 3> ways = smoothest_ways();
   const std::array<Colour, 3> columns{to_xyz(ways[0]), to_xyz(ways[1]), to_xyz(ways[2])};
-  const double determinant = dot(columns[0], cross(columns[1], columns[2]));
   std::array<Spectrum, 3> spectra{};
   for (std::size_t primary = 0; primary < 3; ++primary) {
     Colour rgb{};
     rgb[primary] = 1;
-    const Colour xyz = linear_srgb_to_xyz(rgb);
-    for (std::size_t way = 0; way < 3; ++way) { // Cramer's rule
-      const double amount = dot(xyz, cross(columns[(way + 1) % 3], columns[(way + 2) % 3])) / determinant;
-      for (std::size_t i = 0; i < wavelength_count; ++i) spectra[primary][i] += amount * ways[way][i];
-    }
+    const Colour amount = amounts(columns, linear_srgb_to_xyz(rgb));
+    for (std::size_t way = 0; way < 3; ++way)
+      for (std::size_t i = 0; i < wavelength_count; ++i) spectra[primary][i] += amount[way] * ways[way][i];
   }
   return spectra;
 }
@@ -152,6 +164,51 @@ double lightness(double relative_luminance) { return 116 * lab_root(relative_lum
 const std::array<Spectrum, 3>& primary_spectra() {
   static const std::array<Spectrum, 3> spectra = make_primary_spectra();
   return spectra;
+}
+
+// Where the smoothest spectrum is negative somewhere, exp(sum of amounts times the same three ways) takes its place.
+// Newton's method finds the amounts, on the way from white to the colour.
+Spectrum light_of_colour(const Colour& rgb) {
+  Spectrum light{};
+  for (std::size_t i = 0; i < light.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) light[i] += rgb[c] * primary_spectra()[c][i];
+  if (std::ranges::min(light) >= 0) return light;
+  constexpr int steps = 64, turns = 6;
+  constexpr double most = 0.01; // of a colour's way, that may be left
+  static const std::array<Spectrum, 3> ways = smoothest_ways();
+  const double luminance = linear_srgb_to_xyz(rgb)[1];
+  Colour exponent{};
+  const auto spectrum_of = [](const Colour& of) {
+    Spectrum spectrum{};
+    for (std::size_t i = 0; i < spectrum.size(); ++i)
+      spectrum[i] = std::exp(of[0] * ways[0][i] + of[1] * ways[1][i] + of[2] * ways[2][i]);
+    return spectrum;
+  };
+  Spectrum found = light;
+  for (int step = 0; step <= steps; ++step) {
+    Colour aim{};
+    for (std::size_t c = 0; c < 3; ++c) aim[c] = luminance + (rgb[c] - luminance) * step / steps;
+    const Colour wanted = linear_srgb_to_xyz(aim);
+    double left = 0;
+    for (int turn = 0; turn < turns; ++turn) {
+      light = spectrum_of(exponent);
+      const Colour xyz = to_xyz(light);
+      Colour rest{};
+      left = 0;
+      for (std::size_t c = 0; c < 3; ++c) rest[c] = wanted[c] - xyz[c], left += std::abs(rest[c]) / wanted[1];
+      std::array<Colour, 3> columns{};
+      for (std::size_t way = 0; way < 3; ++way) {
+        Spectrum change = light;
+        for (std::size_t i = 0; i < change.size(); ++i) change[i] *= ways[way][i];
+        columns[way] = to_xyz(change);
+      }
+      const Colour more = amounts(columns, rest);
+      for (std::size_t way = 0; way < 3; ++way) exponent[way] += std::clamp(more[way], -1.0, 1.0);
+    }
+    if (step > 0 && !(left < most)) break; // as far as it got
+    found = light;
+  }
+  return found;
 }
 
 } // namespace nephroid::optics

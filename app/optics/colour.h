@@ -33,4 +33,8 @@ double lightness(double relative_luminance);
 /// r, g, b times these is the smoothest spectrum of the colour (r, g, b). They are negative here and there.
 const std::array<Spectrum, 3>& primary_spectra();
 
+/// A spectrum of light of a colour in linear sRGB, of which no part is negative and one is not 0: the smoothest one
+/// where that is negative nowhere, else one whose logarithm is smooth.
+Spectrum light_of_colour(const Colour& rgb);
+
 } // namespace nephroid::optics

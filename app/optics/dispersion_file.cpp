@@ -6,9 +6,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/lower_case.h"
 #include "base/nearest.h"
 #include "base/numbers.h"
 #include "optics/tables.h"
+#include "optics/zemax_glass.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -64,6 +66,22 @@ YAML::Node text_of(const YAML::Node& block, const char* key, const std::string& 
   return node;
 }
 
+/// The first coefficient of the group that this one is in, and how many the group has. They count from 1; the first
+/// of a group is a factor, without which the others mean nothing.
+struct Group {
+  std::size_t first = 0, size = 1;
+};
+Group group_of(int formula, std::size_t number) {
+  const auto pair_from = [&](std::size_t first) { return Group{number - (number - first) % 2, 2}; };
+  if (number == 1 || formula == 7) return {number, 1};
+  switch (formula) {
+  case 4: return number < 6 ? Group{2, 4} : number < 10 ? Group{6, 4} : pair_from(10);
+  case 8: return number < 4 ? Group{2, 2} : Group{4, 1};
+  case 9: return number < 4 ? Group{2, 2} : Group{4, 3};
+  default: return pair_from(2);
+  }
+}
+
 Curve formula_curve(const YAML::Node& block, int formula, const std::string& file) {
   const YAML::Node range_node = text_of(block, "wavelength_range", file), values = text_of(block, "coefficients", file);
   const std::vector<double> range = numbers(range_node.Scalar(), place(file, range_node));
@@ -77,6 +95,13 @@ Curve formula_curve(const YAML::Node& block, int formula, const std::string& fil
   if (most > 0 && coefficients.size() > most)
     throw bad_input(place(file, values), fmt::format("formula {} has {} coefficients", formula, coefficients.size()),
                     fmt::format("expected at most {}", most));
+
+  const std::size_t count = coefficients.size();
+  if (const Group group = group_of(formula, count);
+      count + 1 < group.first + group.size && coefficients[group.first - 1] != 0)
+    throw bad_input(place(file, values), fmt::format("formula {} has {} coefficients", formula, count),
+                    fmt::format("expected number {}, too, which belongs to the {} of number {}", count + 1,
+                                coefficients[group.first - 1], group.first));
 
   const auto value = [formula, c = std::move(coefficients)](double nm) {
     return index_by_formula(formula, c, nm / 1000);
@@ -161,21 +186,29 @@ void read_block(const YAML::Node& block, DispersionCurve& curve, const std::stri
 } // namespace
 
 DispersionCurve parse_dispersion(const std::string& yaml, const std::filesystem::path& source) {
+  if (lower_case(source.extension().string()) == ".agf") return parse_zemax_glass(yaml, source);
   const std::string file = source.string();
+  const auto foreign = [&] {
+    return bad_input(file, "this is no refractiveindex.info file",
+                     "expected a YAML map with a DATA list, or a glass of Zemax (.agf)",
+                     "a table of n goes into the preset: {\"type\": \"table\", \"table\": [[nm, n], ...]}");
+  };
   DispersionCurve curve;
   curve.name = source.stem().string();
   curve.source = file;
   try {
     const YAML::Node root = YAML::Load(yaml);
-    if (!root.IsMap())
-      throw bad_input(file, "this is no refractiveindex.info file", "expected a YAML map with a DATA list");
+    if (!root.IsMap()) throw foreign();
     const YAML::Node data = root["DATA"];
+    if (std::count_if(root.begin(), root.end(), [](const auto& entry) { return entry.first.Scalar() == "DATA"; }) > 1)
+      throw bad_input(file, "DATA is given twice", "expected one list", "check that the file is not doubled");
     if (!data.IsDefined()) throw bad_input(file, "there is no DATA", "expected a DATA list with formulas or tables");
     if (!data.IsSequence() || data.size() == 0)
       throw bad_input(place(file, data), "DATA is not a list with entries",
                       "expected a list of \"- type: ...\" entries");
     for (const YAML::Node& block : data) read_block(block, curve, file);
   } catch (const YAML::Exception& error) {
+    if (yaml.find("DATA:") == std::string::npos) throw foreign();
     throw bad_input(place(file, error.mark.line), "broken YAML: " + error.msg,
                     "expected a file of the refractiveindex.info database");
   }

@@ -25,9 +25,30 @@ Spectrum normalised(Spectrum spectrum, const std::string& what) {
   return spectrum;
 }
 
-/// Linear between the rows; outside them the end values are held, or 0.
-Spectrum sampled(const LinearTable& table, bool hold) {
-  return spectrum_of([&](double nm) { return hold || (nm >= table.low() && nm <= table.high()) ? table(nm) : 0; });
+/// The end values are held outside the table.
+Spectrum held(const LinearTable& table) { return spectrum_of(table); }
+
+/// The mean about a wavelength by weights that fall to 0 at its two neighbours, so that sums over all wavelengths are
+/// integrals and keep their place. It is exact: between corners, table times weight is a parabola. An end of the table
+/// that is not 0 is a cut: what is beyond is not known and does not count.
+double mean_about(const LinearTable& table, double nm) {
+  const bool is_cut_below = table(table.low()) != 0, is_cut_above = table(table.high()) != 0;
+  if ((nm < table.low() && is_cut_below) || (nm > table.high() && is_cut_above)) return 0;
+  std::vector<double> corners{nm - 1, nm, nm + 1};
+  for (const Row& row : table.rows())
+    if (std::abs(row[0] - nm) < 1) corners.push_back(row[0]);
+  std::ranges::sort(corners);
+  double sum = 0, weights = 0;
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const double a = corners[i - 1], b = corners[i], middle = (a + b) / 2;
+    const bool is_below = middle<table.low(), is_above = middle> table.high();
+    if ((is_below && is_cut_below) || (is_above && is_cut_above)) continue;
+    weights += (b - a) * (1 - std::abs(middle - nm));
+    if (is_below || is_above) continue;
+    const auto weighted = [&](double x) { return table(x) * (1 - std::abs(x - nm)); };
+    sum += (b - a) / 6 * (weighted(a) + 4 * weighted(middle) + weighted(b));
+  }
+  return weights > 0 ? sum / weights : 0;
 }
 
 void require_no_negative_power(std::span<const Row> rows) {
@@ -62,7 +83,7 @@ const Table& colorchecker() {
 const std::vector<std::string>& illuminant_names() { return illuminants().columns; }
 
 Spectrum illuminant(const std::string& name) {
-  return normalised(sampled(column(illuminants(), "illuminant", name), false), "illuminant " + name);
+  return normalised(spectrum_of_table(column(illuminants(), "illuminant", name).rows()), "illuminant " + name);
 }
 
 Spectrum blackbody(double temperature_k) {
@@ -79,9 +100,16 @@ Spectrum blackbody(double temperature_k) {
   return normalised(spectrum, fmt::format("a black body of {} K", temperature_k));
 }
 
+Spectrum spectrum_of_table(std::span<const Row> sorted) {
+  const LinearTable table({sorted.begin(), sorted.end()});
+  if (std::ranges::any_of(sorted, [](const Row& row) { return row[0] != std::round(row[0]); }))
+    return spectrum_of([&](double nm) { return mean_about(table, nm); });
+  return spectrum_of([&](double nm) { return nm >= table.low() && nm <= table.high() ? table(nm) : 0; });
+}
+
 Spectrum light_table(std::span<const std::array<double, 2>> nm_power) {
   require_no_negative_power(nm_power);
-  return normalised(sampled(LinearTable(sorted_rows(nm_power, Duplicates::refuse, {})), false), "the light's table");
+  return normalised(spectrum_of_table(sorted_rows(nm_power, Duplicates::refuse, {})), "the light's table");
 }
 
 Spectrum light_lines(std::span<const std::array<double, 2>> nm_power) {
@@ -102,14 +130,14 @@ Spectrum light_lines(std::span<const std::array<double, 2>> nm_power) {
 const std::vector<std::string>& colorchecker_names() { return colorchecker().columns; }
 
 Spectrum colorchecker_patch(const std::string& name) {
-  return sampled(column(colorchecker(), "ColorChecker patch", name), true);
+  return held(column(colorchecker(), "ColorChecker patch", name));
 }
 
 Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance) {
   for (const auto& [nm, value] : nm_reflectance)
     if (!(value >= 0 && value <= 1))
       throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "expected 0 to 1");
-  return sampled(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})), true);
+  return held(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})));
 }
 
 Spectrum constant_spectrum(double value) {

@@ -10,13 +10,17 @@
 
 namespace nephroid::optics {
 
+/// Rows (nm, value) by rising nm, linear between them, 0 outside the table. Where all rows are at whole nanometres, the
+/// values there; else each wavelength has the mean about it, so that sums are integrals and a laser's line is not lost.
+Spectrum spectrum_of_table(std::span<const std::array<double, 2>> sorted);
+
 /// All spectra of lights here sum to 1 over the 401 wavelengths; multiply by watts.
 /// name: A, D50, D65, E, F1..F12. Throws bad_input listing the known names and the nearest.
 Spectrum illuminant(const std::string& name);
 /// Planck's law. Throws bad_input where temperature_k is not above 0.
 Spectrum blackbody(double temperature_k);
-/// Rows (nm, relative power >= 0) in any order, interpolated linearly to 1 nm, 0 outside the table. Throws bad_input
-/// where nothing is left in 380..780 nm, for a negative power, and for a wavelength given twice with different powers.
+/// Rows (nm, relative power >= 0) in any order, as spectrum_of_table() takes them. Throws bad_input where nothing is
+/// left in 380..780 nm, for a negative power, and for a wavelength given twice with different powers.
 Spectrum light_table(std::span<const std::array<double, 2>> nm_power);
 /// The power of each line goes to the two nearest wavelengths, linearly; lines outside 380..780 nm give nothing.
 Spectrum light_lines(std::span<const std::array<double, 2>> nm_power);

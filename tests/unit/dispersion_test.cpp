@@ -6,6 +6,9 @@
 #include "optics/dispersion_file.h"
 #include "tests/support/test.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace nephroid::dispersion_test {
 
 using namespace nephroid::optics;
@@ -189,6 +192,68 @@ TEST(Dispersion, AnomalousTablesAreReadWithTheirAbsorption) {
   }
 }
 
+// A factor of 0 needs nothing beside it; what a formula has no groups of may end anywhere.
+TEST(Dispersion, CoefficientsMayEndWhereNothingIsMissing) {
+  for (const char* rest : {"formula 4\n    coefficients: 2.25 0", "formula 4\n    coefficients: 2.25",
+                           "formula 7\n    coefficients: 1.5 0", "formula 9\n    coefficients: 2.25 0 0 0"})
+    EXPECT_NEAR(n_at(from_yaml(fmt::format("  - type: {}\n    wavelength_range: 0.3 2.5\n", rest)), 500), 1.5, 1e-12)
+        << rest;
+}
+
+/// A glass of this formula, with more lines.
+DispersionCurve zemax(int kind, double n_d, const std::string& coefficients, const std::string& rest = "") {
+  return parse_dispersion(fmt::format("CC own\nNM OWN-1 {} 517642 {} 64.17 0 1\nGC own glass\nED 7.1 8.3 2.51 0 0\n"
+                                      "CD {}\nLD 0.3 2.5\n{}",
+                                      kind, n_d, coefficients, rest),
+                          "own.AGF");
+}
+
+TEST(Dispersion, ZemaxGlassIsReadByItsFormula) {
+  const char* const bk7 = "1.03961212 0.00600069867 0.231792344 0.0200179144 1.01046945 103.560653 0 0 0 0";
+  const DispersionCurve curve = zemax(2, 1.5168, bk7, "IT 0.5 0.998 10\nIT 0.4 0.9 10\n");
+  EXPECT_EQ(curve.name, "OWN-1");
+  EXPECT_NEAR(n_at(curve, line_d), 1.5168, 1e-5);
+  EXPECT_NEAR(*abbe_number(curve), 64.17, 0.01);
+  EXPECT_EQ(curve.range_nm(), (std::array{300.0, 2500.0}));
+  // exp(-4 pi k / 500 nm * 10 mm) is .998.
+  EXPECT_NEAR(std::exp(-4 * std::numbers::pi * *curve.sample(500).k / 500e-9 * 0.01), 0.998, 1e-9);
+  EXPECT_FALSE(zemax(2, 1.5168, bk7).sample(500).k);
+}
+
+// At 2 um, with fractions that are short; n_d 0 is not compared.
+TEST(Dispersion, EveryFormulaOfZemaxByHand) {
+  const auto squared = [](int kind, const char* c) { return std::pow(n_at(zemax(kind, 0, c), 2000), 2); };
+  EXPECT_NEAR(squared(1, "2 0.5 4 16 64 256"), 2 + 2 + 1 + 1 + 1 + 1, 1e-12);
+  EXPECT_NEAR(squared(2, "1 2 1 3 0 0"), 1 + 2 + 4, 1e-12);
+  const double pole = 1 / (4 - 0.028);
+  EXPECT_NEAR(n_at(zemax(3, 0, "1 2 3 0.1 0.01 0.001"), 2000), 1 + 2 * pole + 3 * pole * pole + 0.4 + 0.16 + 0.064,
+              1e-12);
+  EXPECT_NEAR(squared(4, "0.5 1 1 2 1.5"), 1.5 + 4.0 / 3 + 2 / 1.75, 1e-12);
+  EXPECT_NEAR(n_at(zemax(5, 0, "1 1 1"), 2000), 1.5 + std::pow(2, -3.5), 1e-12);
+  EXPECT_NEAR(squared(6, "1 2 0 0 0 0 1 3"), 1 + 2 + 4, 1e-12);
+  EXPECT_NEAR(squared(7, "3 1 2 0.25"), 3 + 0.5 - 1, 1e-12);
+  EXPECT_NEAR(squared(8, "3 1 2 0.25"), 3 + 2 - 1, 1e-12);
+  EXPECT_NEAR(squared(9, "3 1 2 1 3"), 3 + 2 + 4, 1e-12);
+  EXPECT_NEAR(squared(10, "2 0 0 0 0 0 1024 4096"), 4, 1e-12);
+  EXPECT_NEAR(squared(11, "0 0 0 0 0 0 0 0 1 2"), 3, 1e-12);
+  EXPECT_NEAR(squared(12, "2 0 0 0 0 0 0.0625 0.015625"), 4, 1e-12);
+  EXPECT_NEAR(squared(13, "2 0.25 0.0625 4 16 64 256 1024 4096"), 10, 1e-12);
+}
+
+TEST(Dispersion, ZemaxGlassThatIsNotClearIsRefused) {
+  const auto refused = [](const std::string& text) { return refusal_of([&] { parse_dispersion(text, "own.agf"); }); };
+  EXPECT_EQ(
+      refused("NM A 2 0 1.5\nCD 1\nNM B 2 0 1.5\nCD 1\n"),
+      "own.agf: has 2 glasses: A, B; expected one; copy the lines of yours, from its NM up to the next NM, into a "
+      "file of its own (.agf)");
+  EXPECT_THAT(refused("nothing"), HasSubstr("own.agf: has no glass: no line begins with NM"));
+  EXPECT_THAT(refused("CC\nNM A 14 0 1.5\nCD 1\nLD 1 2\n"), HasSubstr("own.agf:2: the formula of A is 14"));
+  EXPECT_THAT(refused("NM A 2 0 1.5\nCD x\nLD 1 2\n"), HasSubstr("own.agf:2: CD is followed by 0 numbers"));
+  EXPECT_THAT(refused("NM A 2 0 1.5\nCD 1 0\n"), HasSubstr("has no line LD"));
+  EXPECT_THAT(refused("NM A 2 0 1.5\nCD 3 0\nLD .4 2\n"),
+              HasSubstr("own.agf:1: the formula of A gives n_d = 2.00000, and its line NM says 1.5"));
+}
+
 TEST(Dispersion, PathsMayHoldAnyCharacters) {
   EXPECT_EQ(parse_dispersion("DATA:\n  - type: constant\n    value: 2\n", "a (b), c/Gauß 1.5 μm.yml").name,
             "Gauß 1.5 μm");
@@ -274,7 +339,9 @@ TEST_P(MalformedFile, IsRefusedWithOneLine) {
   EXPECT_EQ(refusal_of([] { parse_dispersion(GetParam().yaml, "f.yml"); }), GetParam().line);
 }
 
-constexpr const char* no_map = "f.yml: this is no refractiveindex.info file; expected a YAML map with a DATA list";
+constexpr const char* no_map =
+    "f.yml: this is no refractiveindex.info file; expected a YAML map with a DATA list, or a glass of Zemax (.agf); a "
+    "table of n goes into the preset: {\"type\": \"table\", \"table\": [[nm, n], ...]}";
 constexpr const char* no_list = "f.yml:1: DATA is not a list with entries; expected a list of \"- type: ...\" entries";
 
 std::string formula(int number, const std::string& range, const std::string& coefficients) {
@@ -291,6 +358,12 @@ std::string no_range(const std::string& text) {
          "\"; expected two numbers in micrometres, the lower first, above 0";
 }
 
+std::string no_number_of(int formula, int count, int missing, const std::string& factor, int number) {
+  return fmt::format("f.yml:4: formula {} has {} coefficients; expected number {}, too, which belongs to the {} of "
+                     "number {}",
+                     formula, count, missing, factor, number);
+}
+
 std::string no_type(const std::string& text) {
   return "f.yml:2: the type is \"" + text + "\"; expected formula 1 to 9, tabulated n, nk or k, or constant";
 }
@@ -303,6 +376,8 @@ const Malformed cases[] = {
     {"NoData", "COMMENTS: none\n", "f.yml: there is no DATA; expected a DATA list with formulas or tables"},
     {"LowerCaseData", "data:\n  - type: constant\n",
      "f.yml: there is no DATA; expected a DATA list with formulas or tables"},
+    {"DataTwice", "DATA: []\nDATA: []\n",
+     "f.yml: DATA is given twice; expected one list; check that the file is not doubled"},
     {"DataIsText", "DATA: 1.5\n", no_list},
     {"DataIsEmpty", "DATA: []\n", no_list},
     {"DataIsNull", "DATA:\n", "f.yml:2: DATA is not a list with entries; expected a list of \"- type: ...\" entries"},
@@ -327,6 +402,18 @@ const Malformed cases[] = {
     {"CoefficientOverflows", formula(1, "0.3 2.5", "0 1e999"), no_number(4, "1e999")},
     {"TooManyCoefficients", formula(8, "0.3 2.5", "1 2 3 4 5"),
      "f.yml:4: formula 8 has 5 coefficients; expected at most 4"},
+    {"HalfAPair1", formula(1, "0.3 2.5", "0 1 0.1 2"), no_number_of(1, 4, 5, "2", 4)},
+    {"HalfAPair2", formula(2, "0.3 2.5", "0 1"), no_number_of(2, 2, 3, "1", 2)},
+    {"HalfAPair3", formula(3, "0.3 2.5", "2 0.1 -2 0.5"), no_number_of(3, 4, 5, "0.5", 4)},
+    {"PartOfAGroup", formula(4, "0.3 0.9", "1 1.2 2 0.1 2 0.4 0 0.2"), no_number_of(4, 8, 9, "0.4", 6)},
+    {"FactorAlone", formula(4, "0.3 0.9", "1 1.2"), no_number_of(4, 2, 3, "1.2", 2)},
+    {"HalfAPair4", formula(4, "0.3 0.9", "1 0 0 0 0 0 0 0 0 1 2 3"), no_number_of(4, 12, 13, "3", 12)},
+    {"HalfAPair5", formula(5, "0.3 2.5", "1.5 0.1"), no_number_of(5, 2, 3, "0.1", 2)},
+    {"HalfAPair6", formula(6, "0.3 2.5", "0 0.05 230 0.01"), no_number_of(6, 4, 5, "0.01", 4)},
+    {"HalfAPair8", formula(8, "0.3 2.5", "0.2 0.1"), no_number_of(8, 2, 3, "0.1", 2)},
+    {"PartOfAGroup9", formula(9, "0.3 2.5", "2 0.5 3 0.3 1.5"), no_number_of(9, 5, 6, "0.3", 4)},
+    {"Csv", "nm,n\n400,1.53\n700,1.51\n", no_map},
+    {"Step", "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('a'),'2;1');\n", no_map},
     {"TableWithoutData", "DATA:\n  - type: tabulated n\n", "f.yml:2: the entry has no \"data\""},
     {"TypeOfManyLetters", "DATA:\n  - type: fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff\n",
      no_type("ffffffffffffffffffffffffffffffffffffffff")},

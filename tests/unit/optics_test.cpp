@@ -45,6 +45,16 @@ TEST(Colour, PrimariesOfSrgbHaveTheirChromaticities) {
   expect_near(linear_srgb_to_xyz({1, 1, 1}), {0.9505, 1.0, 1.0890}, 1e-12);
 }
 
+TEST(Colour, LightOfAnyColourHasASpectrumThatIsNowhereNegative) {
+  for (const Colour& rgb : {Colour{1, 0, 0}, Colour{0, 1, 0}, Colour{0, 0, 1}, Colour{1, 0, 1}, Colour{0, 1, 1},
+                            Colour{1, 1, 0}, Colour{0.05, 0, 1}, Colour{1, 0.02, 0}, Colour{0.3, 0.3, 1}}) {
+    const Spectrum light = light_of_colour(rgb);
+    EXPECT_GE(*std::min_element(light.begin(), light.end()), 0);
+    const Colour found = xyz_to_linear_srgb(to_xyz(light));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], rgb[c], 1e-4) << rgb[0] << ' ' << rgb[1] << ' ' << rgb[2];
+  }
+}
+
 TEST(Colour, SrgbThereAndBackIsTheIdentityOutsideTheGamutToo) {
   for (const Colour& xyz : {Colour{0.2, 0.3, 0.4}, Colour{1, 0, 0}, Colour{-0.1, 2, 30}})
     expect_near(linear_srgb_to_xyz(xyz_to_linear_srgb(xyz)), xyz, 1e-13);
@@ -146,6 +156,25 @@ TEST(Spectrum, LightTableIsZeroOutsideAndSumsToOne) {
   EXPECT_NEAR(at(light, 555), 0.05, 1e-14);
   EXPECT_EQ(at(light, 549), 0);
   EXPECT_EQ(at(light, 571), 0);
+}
+
+TEST(Spectrum, WhatLiesBetweenWholeNanometresKeepsItsAreaAndItsPlace) {
+  const Spectrum line = spectrum_of_table(Rows{{632.75, 0}, {632.8, 1000}, {632.85, 0}}); // a laser's
+  EXPECT_NEAR(at(line, 632), 50 * 0.2, 1e-6);
+  EXPECT_NEAR(at(line, 633), 50 * 0.8, 1e-6);
+  EXPECT_NEAR(sum(line), 50, 1e-6);
+  EXPECT_NEAR(at(light_table(Rows{{632.75, 0}, {632.8, 1}, {632.85, 0}}), 633), 0.8, 1e-6);
+  EXPECT_NEAR(sum(spectrum_of_table(Rows{{499, 0}, {500.5, 1}, {502, 0}})), 1.5, 1e-6);
+  EXPECT_NEAR(sum(spectrum_of_table(Rows{{547, 0}, {550.5, 1}, {554, 0}})), 3.5, 1e-6);
+  const Spectrum flat = spectrum_of_table(Rows{{400.5, 2}, {450.25, 2}, {500.5, 2}}); // cut at its ends
+  for (const int nm : {401, 402, 450, 500}) EXPECT_NEAR(at(flat, nm), 2, 1e-9) << nm;
+  for (const int nm : {400, 501}) EXPECT_EQ(at(flat, nm), 0) << nm;
+  const Spectrum whole_range = spectrum_of_table(Rows{{380, 1}, {580.5, 1}, {780, 1}});
+  EXPECT_NEAR(at(whole_range, 380), 1, 1e-9);
+  EXPECT_NEAR(at(whole_range, 780), 1, 1e-9);
+  const Spectrum whole = spectrum_of_table(Rows{{500, 1}, {501, 3}, {510, 0}}); // as it is
+  EXPECT_EQ(at(whole, 500), 1);
+  EXPECT_EQ(at(whole, 501), 3);
 }
 
 TEST(Spectrum, LinesGoToTheirTwoNearestWavelengths) {

@@ -81,15 +81,22 @@ void expect_xyz(const std::vector<float>& rgb, const optics::Colour& xyz) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], xyz[c], 1e-3) << c; // four digits of sRGB's matrix
 }
 
-// The columns of the matrix of SMPTE ST 2065-1, table D.1: from ACES to XYZ.
+MATCHER_P(AreAbout, values, "") {
+  return testing::ExplainMatchResult(Pointwise(FloatNear(2e-3f), values), arg, result_listener);
+}
+
+// The columns of the matrix from ACES to linear sRGB that others publish (with Bradford): its white is white. sRGB's
+// primaries under another white are that, too, as a map under D50 (hdri of a city) has them.
 TEST_F(PictureFiles, ChromaticitiesAreObeyed) {
   const std::vector<float> aces{0.7347f, 0.2653f, 0, 1, 0.0001f, -0.077f, 0.32168f, 0.33767f};
   const auto rgb = [&](const std::vector<float>& bgr, const std::vector<float>& chromaticities) {
     return rgb_of(read({coloured(bgr, chromaticities)}), "p").values;
   };
-  expect_xyz(rgb({0, 0, 1}, aces), {0.9525523959, 0.3439664498, 0});
-  expect_xyz(rgb({0, 1, 0}, aces), {0, 0.7281660966, 0});
-  expect_xyz(rgb({1, 0, 0}, aces), {0.0000936786, -0.0721325464, 1.0088251844});
+  EXPECT_THAT(rgb({0, 0, 1}, aces), AreAbout(std::vector{2.52169f, -0.27648f, -0.01538f}));
+  EXPECT_THAT(rgb({0, 1, 0}, aces), AreAbout(std::vector{-1.13413f, 1.37272f, -0.15298f}));
+  EXPECT_THAT(rgb({1, 0, 0}, aces), AreAbout(std::vector{-0.38756f, -0.09624f, 1.16835f}));
+  const std::vector<float> under_d50{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3457f, 0.3585f};
+  EXPECT_THAT(rgb({2, 2, 2}, under_d50), AreAbout(std::vector{2.0f, 2.0f, 2.0f}));
   const std::vector<float> xyz{1, 0, 0, 1, 0, 0, 1 / 3.0f, 1 / 3.0f};
   expect_xyz(rgb({0.3f, 0.4f, 0.5f}, xyz), {0.5, 0.4, 0.3});
   const std::vector<float> rec_709{0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
@@ -100,7 +107,8 @@ TEST_F(PictureFiles, ChromaticitiesAreObeyed) {
     EXPECT_THAT(test::refusal_of([&] { rgb({3, 2, 1}, none); }), HasSubstr("p: has the chromaticities"));
 }
 
-// Green of ACES lies outside of sRGB: as an environment it is mixed with grey, and its luminance stays.
+// Green of ACES lies outside of sRGB: as an environment it is mixed with grey, and its luminance stays, which is that
+// of sRGB's parts above.
 TEST_F(PictureFiles, AnEnvironmentHasColoursThatSrgbHas) {
   const std::vector<float> aces{0.7347f, 0.2653f, 0, 1, 0.0001f, -0.077f, 0.32168f, 0.33767f};
   ExrPart sky = coloured({0, 1, 0, 1, 1, 1}, aces);
@@ -117,7 +125,7 @@ TEST_F(PictureFiles, AnEnvironmentHasColoursThatSrgbHas) {
     return optics::linear_srgb_to_xyz(
         {double(map.rgb[3 * texel]), double(map.rgb[3 * texel + 1]), double(map.rgb[3 * texel + 2])})[1];
   };
-  EXPECT_NEAR(luminance(0), 0.7281660966, 1e-3);
+  EXPECT_NEAR(luminance(0), -1.13413 * 0.2126 + 1.37272 * 0.7152 - 0.15298 * 0.0722, 1e-3);
   EXPECT_NEAR(luminance(1), 1, 1e-3);
 }
 
@@ -246,6 +254,65 @@ TEST_F(PictureFiles, AWebpSaysHowItWasHeldAndWhoseItsColoursAre) {
   EXPECT_THAT(image.data, ElementsAre(0, 0, 0, FloatNear(128 / 255.0f, 1e-6f), FloatNear(128 / 255.0f, 1e-6f),
                                       FloatNear(128 / 255.0f, 1e-6f), 1, 1, 1));
   EXPECT_THAT(image.notes, ElementsAre("its colour profile is not obeyed; its colours are taken as sRGB's"));
+}
+
+/// Big-endian, as ICC.1 wants numbers.
+std::string big(double value, int bytes) {
+  std::string text;
+  const auto bits = static_cast<std::uint32_t>(std::llround(value));
+  for (int i = bytes - 1; i >= 0; --i) text.push_back(static_cast<char>(bits >> (8 * i) & 255));
+  return text;
+}
+
+/// A profile (ICC.1:2022) of one curve, a power, and these columns of XYZ under D50; of none of them, a grey one.
+std::string profile_of(double gamma, const std::vector<std::array<double, 3>>& columns) {
+  const std::string curve = "curv" + std::string(4, '\0') + big(1, 4) + big(256 * gamma, 2) + std::string(2, '\0');
+  const auto xyz = [](const std::array<double, 3>& values) {
+    std::string text = "XYZ " + std::string(4, '\0');
+    for (const double value : values) text += big(65536 * value, 4);
+    return text;
+  };
+  std::vector<std::pair<std::string, std::string>> tags{{"wtpt", xyz({0.9642, 1, 0.8249})}};
+  if (columns.empty()) tags.emplace_back("kTRC", curve);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    tags.emplace_back(std::string(1, "rgb"[c]) + "XYZ", xyz(columns[c])),
+        tags.emplace_back(std::string(1, "rgb"[c]) + "TRC", curve);
+  std::string table = big(static_cast<double>(tags.size()), 4), data;
+  for (const auto& [name, bytes] : tags) {
+    table += name + big(static_cast<double>(132 + 12 * tags.size() + data.size()), 4) +
+             big(static_cast<double>(bytes.size()), 4);
+    data += bytes;
+  }
+  const std::string size = big(static_cast<double>(128 + table.size() + data.size()), 4);
+  return size + std::string(4, '\0') + big(0x04300000, 4) + "mntr" + (columns.empty() ? "GRAY" : "RGB ") + "XYZ " +
+         std::string(12, '\0') + "acsp" + std::string(28, '\0') + xyz({0.9642, 1, 0.8249}).substr(8) +
+         std::string(48, '\0') + table + data;
+}
+
+// Red, green and grey 128 of a linear profile that has sRGB's green where sRGB has red, and the other way round; then
+// of sRGB's own columns and a power of 1.8.
+TEST_F(PictureFiles, AProfileIsObeyed) {
+  const std::array<double, 3> red{0.43607, 0.22249, 0.01392}, green{0.38515, 0.71687, 0.09708},
+      blue{0.14307, 0.06061, 0.7141};
+  const auto webp = [&](const std::string& profile) {
+    const auto chunk = [](const std::string& name, const std::string& bytes) {
+      const std::string size = big(static_cast<double>(bytes.size()), 4);
+      return name + std::string(size.rbegin(), size.rend()) + bytes + std::string(bytes.size() % 2, '\0');
+    };
+    return chunk("RIFF", "WEBP" + chunk("VP8X", bytes_of("20000000020000000000")) + chunk("ICCP", profile) +
+                             chunk("VP8L", bytes_of("2f020000001720904d76f3ccd31010145db7dc00ce7f4c53a12111fd0f00")));
+  };
+  const Image image = read("p.webp", webp(profile_of(1, {green, red, blue})));
+  EXPECT_THAT(image.notes, IsEmpty());
+  const float grey = 128 / 255.0f;
+  EXPECT_THAT(rgb_of(image, "p").values, AreAbout(std::vector{0.0f, 1.0f, 0.0f, 1.0f, 0.0f, 0.0f, grey, grey, grey}));
+  const float dark = std::pow(grey, 1.8f);
+  EXPECT_THAT(light("g.webp", webp(profile_of(1.8, {red, green, blue}))),
+              AreAbout(std::vector{1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, dark, dark, dark}));
+  EXPECT_THAT(read("k.webp", webp(profile_of(1, {}))).notes,
+              ElementsAre(HasSubstr("its colour profile is not obeyed")));
+  const std::string tiff = test::tiff(1, 1, 1, "\x80", 0, profile_of(1, {}));
+  EXPECT_THAT(light("p.tif", tiff), AreAbout(std::vector{grey, grey, grey}));
 }
 
 // Behind the header of a PNG, a gamma of 1 with its check sum.

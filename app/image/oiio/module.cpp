@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only file that includes OpenImageIO: decodes any picture it knows, encodes EXR and PNG in
 // memory, with the same bytes for the same input, draws text. Nothing is written to disk here.
+#include "image/oiio/profile.h"
 #include "image/seam.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -127,7 +128,13 @@ void add_colours(const ImageSpec& spec, Image& header) {
   }
   header.white_cd_m2 = double(spec.get_float_attribute("whiteLuminance"));
   const std::string profile(spec.get_string_attribute("ICCProfile:profile_description"));
-  if (spec.find_attribute("ICCProfile") && profile.find("sRGB") == std::string::npos)
+  const ParamValue* const icc = spec.find_attribute("ICCProfile");
+  if (!icc) return;
+  std::string bytes(static_cast<const char*>(icc->data()), icc->type().size());
+  const ProfileUse use = profile_use(bytes, spec.nchannels < 3);
+  if (use == ProfileUse::other && header.integers)
+    header.profile = std::move(bytes);
+  else if (use != ProfileUse::srgb || !header.integers)
     header.notes.push_back("its colour profile" + (profile.empty() ? "" : " '" + profile + "'") +
                            " is not obeyed; its colours are taken as sRGB's");
 }
@@ -164,8 +171,7 @@ void add_webp_chunks(const std::string& file, ImageSpec& spec) {
       std::string bytes(static_cast<std::size_t>(size), '\0');
       from.read(bytes.data(), size);
       if (name == "EXIF") spec.attribute("Orientation", exif_orientation(bytes));
-      std::erase(bytes, '\0'); // a profile's texts are UTF-16
-      if (name == "ICCP" && bytes.find("sRGB") == std::string::npos) spec.attribute("ICCProfile", 1);
+      if (name == "ICCP") spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(size)), bytes.data());
     }
     at += 8 + size + size % 2;
   }
@@ -305,6 +311,6 @@ Image text(const std::string& words, int height, const std::string& font) {
 
 extern "C" [[gnu::visibility("default")]] const nephroid::image::Module* nephroid_image_module() {
   using namespace nephroid::image;
-  static constexpr Module module{read_bands, encode, text};
+  static constexpr Module module{read_bands, encode, text, apply_profile};
   return &module;
 }
