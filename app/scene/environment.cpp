@@ -116,7 +116,7 @@ Environment read_environment(const std::filesystem::path& file, double radiance,
   image::Rgb colours = image::rgb_of(picture, file.string());
   if (picture.integers) multiply_by_alpha(colours);
   result.rgb = std::move(colours.values);
-  if (picture.chromaticities) mix_colours_beyond_srgb(result.rgb, name, warnings);
+  if (picture.chromaticities || !picture.profile.empty()) mix_colours_beyond_srgb(result.rgb, name, warnings);
   mend_negative_texels(result.rgb, name, warnings);
   check_texels(result.rgb, result.width, file);
   check_range(result.rgb, name, warnings);
@@ -158,7 +158,7 @@ Environment make_environment(const preset::Environment& environment, const FileF
     result = read_environment(finder.find(environment.file, where / "file"), environment.radiance, warnings);
     result.rotate_deg = environment.rotate_deg;
   } else if (environment.type == preset::Environment::Type::sky) {
-    result = make_sky(environment, where);
+    result = make_sky(environment);
     mix_colours_beyond_srgb(result.rgb, "sky", warnings);
     result.rotate_deg = environment.rotate_deg;
   } else {

@@ -253,8 +253,67 @@ void turn_round(Mesh& mesh) {
   for (Ellipsoid& ellipsoid : mesh.ellipsoids) ellipsoid.inwards = !ellipsoid.inwards;
 }
 
-void compute_smooth_normals(Mesh& mesh) {
+namespace {
+
+/// Gives the corners on either side of a sharp edge vertices of their own. Corners are numbered triangle by triangle.
+void split_at_creases(Mesh& mesh, double crease_deg) {
   const std::vector<std::uint32_t> joined = first_equal_vertex(mesh, false);
+  const auto count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+  const auto vertex = [&](std::uint32_t corner) {
+    return joined[mesh.triangles[corner / 3][static_cast<int>(corner % 3)]];
+  };
+  const auto next = [](std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+  const auto normal = [&](std::uint32_t corner) {
+    const auto [a, b, c] = corners(mesh, mesh.triangles[corner / 3]);
+    return glm::normalize(glm::cross(b - a, c - a));
+  };
+  // The corners that share a vertex without a sharp edge between them: each leads towards the first of them.
+  std::vector<std::uint32_t> before(count), edges(count);
+  std::iota(before.begin(), before.end(), 0);
+  std::iota(edges.begin(), edges.end(), 0); // an edge is the corner that it begins at
+  const auto first_of = [&](std::uint32_t corner) {
+    while (before[corner] != corner) corner = before[corner] = before[before[corner]];
+    return corner;
+  };
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    a = first_of(a), b = first_of(b);
+    before[std::max(a, b)] = std::min(a, b);
+  };
+  const auto ends = [&](std::uint32_t edge) { return std::minmax({vertex(edge), vertex(next(edge))}); };
+  std::ranges::sort(edges, {}, [&](std::uint32_t edge) { return std::pair(ends(edge), edge); });
+  const double sharp = std::cos(glm::radians(crease_deg));
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    while (end < edges.size() && ends(edges[end]) == ends(edges[i])) ++end;
+    if (end - i != 2) continue;
+    const std::uint32_t a = edges[i], b = edges[i + 1];
+    if (vertex(a) != vertex(next(b)) || glm::dot(normal(a), normal(b)) < sharp) continue;
+    join(a, next(b));
+    join(next(a), b);
+  }
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> number(count);
+  std::vector<glm::uvec3> triangles(mesh.triangles.size());
+  for (std::uint32_t corner = 0; corner < count; ++corner) {
+    if (first_of(corner) == corner) {
+      number[corner] = static_cast<std::uint32_t>(positions.size());
+      positions.push_back(mesh.positions[vertex(corner)]);
+    }
+    triangles[corner / 3][static_cast<int>(corner % 3)] = number[first_of(corner)];
+  }
+  mesh.positions = std::move(positions);
+  mesh.triangles = std::move(triangles);
+}
+
+} // namespace
+
+void compute_smooth_normals(Mesh& mesh, double crease_deg) {
+  std::vector<std::uint32_t> joined;
+  if (crease_deg < 180) {
+    split_at_creases(mesh, crease_deg);
+    joined.resize(mesh.positions.size());
+    std::iota(joined.begin(), joined.end(), 0);
+  } else
+    joined = first_equal_vertex(mesh, false);
   mesh.normals = mean_normals(mesh, joined);
   // Where the mean has no direction (a sheet with two sides) each vertex takes a normal of its own triangles; a vertex
   // without any triangle gets +y, so that every normal is a unit vector.

@@ -93,7 +93,9 @@ void turn_round(Mesh& mesh);
 
 /// Gives every vertex the mean of the normals of the triangles that meet at its position, weighted by their angles
 /// there (Thürmer and Wüthrich 1998), so that the result does not depend on how the surface was cut into triangles.
-void compute_smooth_normals(Mesh& mesh);
+/// Edges that bend by more than crease_deg, those of one triangle and those of more than two stay sharp: their vertices
+/// are there once for each side. 180: none does.
+void compute_smooth_normals(Mesh& mesh, double crease_deg = 180);
 
 /// How much solid angle `count` triangles subtend at p, over 4 pi: 1 inside and 0 outside a closed surface that faces
 /// outwards (van Oosterom and Strackee 1983).

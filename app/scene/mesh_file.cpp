@@ -3,6 +3,7 @@
 // them. Nothing that it answers is believed before it was looked at: a file that corrupts its memory makes it say
 // anything.
 #include "base/files.h"
+#include "base/foreign_kind.h"
 #include "base/hashed_bytes.h"
 #include "base/recent.h"
 #include "scene/mesh_parts.h"
@@ -130,6 +131,13 @@ std::uint64_t bytes_of(const Mesh& mesh) {
          mesh.triangles.size() * sizeof(glm::uvec3) + mesh.texcoords.size() * sizeof(Texcoords);
 }
 
+/// Throws bad_input where the file is no mesh but something that has a name.
+void refuse_foreign(const std::filesystem::path& file, const std::string& begin) {
+  if (const ForeignKind* kind = foreign_kind(file, begin))
+    throw bad_input(file.string(), fmt::format("is {}, which is not read", kind->what),
+                    std::string("expected ") + formats, std::string(kind->remedy));
+}
+
 } // namespace
 
 std::optional<MeshAnswer> take_answer(std::FILE* from) {
@@ -179,7 +187,10 @@ Mesh mesh_of(MeshAnswer answer) {
 
 Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop) {
   const Location where = file.string();
-  const std::size_t size = read_file(file).size(); // says why, where there is nothing to read
+  std::string bytes = read_file(file); // says why, where there is nothing to read
+  const std::size_t size = bytes.size();
+  bytes.resize(std::min<std::size_t>(size, 64));
+  bytes.shrink_to_fit();
   if (size == 0) throw bad_input(where, "the mesh file is empty", formats);
   // Good files need some 20 times their size and a second for 50 MB; glTF may keep its data in another file.
   const unsigned cpu_seconds = 5 + static_cast<unsigned>(size >> 20);
@@ -189,10 +200,12 @@ Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop) {
       return ask_reader(reader, cpu_seconds, stop);
     } catch (const std::runtime_error& refusal) {
       if (stop.stop_requested()) throw Error(ErrorKind::interrupted, where, "interrupted while the mesh was read");
+      refuse_foreign(file, bytes);
       throw bad_input(where, "the mesh cannot be read: " + printable(refusal.what()), formats,
                       "check the file in another program");
     }
   }();
+  if (!has_area(mesh)) refuse_foreign(file, bytes);
   if (!has_area(mesh))
     throw bad_input(where, mesh.triangles.empty() ? "the mesh has no triangles" : "no triangle of the mesh has an area",
                     formats);

@@ -186,8 +186,9 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Locatio
 }
 
 PlacedMesh place(const Mesh& mesh, const Placement& placement, const Bounds& bounds, const glm::dvec3& origin,
-                 bool dielectric, const Location& where) {
+                 bool dielectric, double crease_deg, const Location& where) {
   PlacedMesh placed;
+  placed.has_own_normals = !mesh.normals.empty();
   check_extent(bounds, origin, where, placed);
   placed.mesh = transformed(mesh, placement, origin);
   const MeshReport report = inspect(placed.mesh);
@@ -199,7 +200,7 @@ PlacedMesh place(const Mesh& mesh, const Placement& placement, const Bounds& bou
     for (const Ellipsoid& ellipsoid : placed.mesh.ellipsoids) check_thickness(ellipsoid, where);
   if (placed.mesh.triangles.empty() && placed.mesh.ellipsoids.empty())
     throw bad_input(where, "no triangle has an area after scaling", "a mesh with a surface", "use a scale closer to 1");
-  if (placed.mesh.normals.empty()) compute_smooth_normals(placed.mesh);
+  if (!placed.has_own_normals) compute_smooth_normals(placed.mesh, crease_deg);
   placed.bounds = enclosing_sphere(placed.mesh, placed.mesh.triangles, placed.mesh.ellipsoids);
   return placed;
 }

@@ -26,6 +26,7 @@ struct PlacedMesh {
   Mesh mesh; ///< with normals, without degenerate or duplicated triangles
   Sphere bounds;
   bool closed = true;
+  bool has_own_normals = false;      ///< from where the mesh comes
   std::vector<std::string> warnings; ///< without the object's name
   std::vector<Damage> damages;
 };
@@ -36,9 +37,10 @@ Placement make_placement(const preset::Transform& transform, const Mesh& mesh);
 Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Location& where);
 
 /// bounds: placed_bounds. origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation
-/// matter then. Throws bad_input at where: too large, too small or too far away for single precision.
+/// matter then. crease_deg: of the normals that are made where the mesh has none. Throws bad_input at where: too large,
+/// too small or too far away for single precision.
 PlacedMesh place(const Mesh& mesh, const Placement& placement, const Bounds& bounds, const glm::dvec3& origin,
-                 bool dielectric, const Location& where);
+                 bool dielectric, double crease_deg, const Location& where);
 
 /// The largest distance of a side from a coordinate plane.
 double largest_coordinate(const Bounds& bounds);

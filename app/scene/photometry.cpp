@@ -3,14 +3,18 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/lower_case.h"
 #include "base/numbers.h"
+#include "base/plain_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -86,6 +90,15 @@ void check_rising(const std::vector<double>& angles, double low, double high, st
   }
 }
 
+/// Of types A and B.
+void check_from_0_or_below(const std::vector<double>& angles, double most, std::string_view what,
+                           const std::string& where) {
+  check_rising(angles, -most, most, what, where);
+  if (angles.size() < 2) throw bad_input(where, fmt::format("there is one {}", what), "expected two or more");
+  if (angles.front() > 0)
+    throw bad_input(where, fmt::format("the first {} is {} degrees", what, angles.front()), "expected 0 or less");
+}
+
 /// Intensities of each plane that the file has.
 using Planes = std::map<double, std::vector<double>>;
 
@@ -101,6 +114,16 @@ void mirror(Planes& planes, double sum) {
   for (const auto& [c, values] : given) planes.try_emplace(turned(sum - c), values);
 }
 
+void check_light(const Photometry& p) {
+  constexpr double most = 1e15;
+  for (const double value : p.intensity)
+    if (!(value >= 0 && value <= most))
+      throw bad_input(p.file.string(), fmt::format("has an intensity of {}", value),
+                      fmt::format("expected 0 to {}", most));
+  if (std::ranges::none_of(p.intensity, [](double value) { return value > 0; }))
+    throw bad_input(p.file.string(), "has no light in any direction");
+}
+
 /// planes: those that the file has, at 0..360 without 360.
 Photometry make_photometry(const fs::path& file, std::vector<double> gamma_deg, const Planes& planes) {
   Photometry result{file, std::move(gamma_deg), {}, {}};
@@ -113,13 +136,34 @@ Photometry make_photometry(const fs::path& file, std::vector<double> gamma_deg, 
   if (first > 0) add(last - 360, last_values);
   for (const auto& [c, values] : planes) add(c, values);
   add(first + 360, first_values);
-  constexpr double most = 1e15;
-  for (const double value : result.intensity)
-    if (!(value >= 0 && value <= most))
-      throw bad_input(file.string(), fmt::format("has an intensity of {}", value),
-                      fmt::format("expected 0 to {}", most));
-  if (std::ranges::none_of(result.intensity, [](double value) { return value > 0; }))
-    throw bad_input(file.string(), "has no light in any direction");
+  check_light(result);
+  return result;
+}
+
+/// As planes C, in the steps in which kernels read them. given: of type A or B, its vertical angles as gamma and its
+/// horizontal ones as C. What begins at 0 has its mirror image below.
+Photometry turned_to_c(const Photometry& given, bool is_b) {
+  check_light(given);
+  const auto value = [&](double v, double h) {
+    if (given.gamma_deg.front() == 0) v = std::abs(v);
+    if (given.c_deg.front() == 0) h = std::abs(h);
+    return h >= given.c_deg.front() && h <= given.c_deg.back() ? intensity(given, v, h) : 0;
+  };
+  constexpr double degree = std::numbers::pi / 180, fine = 1e9; // what is an end but for rounding is that end
+  const auto degrees = [](double radians) { return std::round(radians / degree * fine) / fine; };
+  Photometry result{given.file, {}, {}, {}};
+  for (int i = 0; i <= 360; ++i) {
+    result.gamma_deg.push_back(0.5 * i);
+    result.c_deg.push_back(i);
+  }
+  for (const double c : result.c_deg)
+    for (const double gamma : result.gamma_deg) {
+      const double down = std::cos(gamma * degree), ahead = std::sin(gamma * degree) * std::cos(c * degree),
+                   right = -std::sin(gamma * degree) * std::sin(c * degree);
+      // The planes of type B turn about a horizontal axis, those of type A about the vertical one.
+      result.intensity.push_back(is_b ? value(degrees(std::atan2(ahead, down)), degrees(std::asin(right)))
+                                      : value(gamma - 90, degrees(std::atan2(right, ahead))));
+    }
   return result;
 }
 
@@ -137,14 +181,22 @@ Photometry read_ies(const fs::path& file, std::string_view text, int line, bool 
   const double multiplier = words.number("the multiplier of intensities");
   const int gammas = words.count("the number of vertical angles", most_angles),
             planes = words.count("the number of horizontal angles", most_angles);
-  if (const int type = words.count("the photometric type", 3); type != 1)
-    throw bad_input(words.where(), fmt::format("the photometry is of type {}", type == 2 ? "B" : "A"),
-                    "expected type C, number 1", "convert it in another program");
+  const int type = words.count("the photometric type", 3); // C, B, A
   words.numbers(4, "the luminaire's size");
   words.numbers(3, "the ballast's factor or the watts");
   std::vector<double> gamma_deg = words.numbers(gammas, "a vertical angle");
+  std::vector<double> c_deg;
+  if (type != 1) {
+    check_from_0_or_below(gamma_deg, type == 2 ? 180 : 90, "vertical angle", words.where());
+    c_deg = words.numbers(planes, "a horizontal angle");
+    check_from_0_or_below(c_deg, type == 2 ? 90 : 180, "horizontal angle", words.where());
+    Photometry given{file, std::move(gamma_deg), std::move(c_deg), words.numbers(gammas * planes, "an intensity")};
+    for (double& value : given.intensity) value *= multiplier;
+    words.end();
+    return turned_to_c(given, type == 2);
+  }
   check_rising(gamma_deg, 0, 180, "vertical angle", words.where());
-  const std::vector<double> c_deg = words.numbers(planes, "a horizontal angle");
+  c_deg = words.numbers(planes, "a horizontal angle");
   check_rising(c_deg, 0, 360, "horizontal angle", words.where());
   Planes values;
   for (const double c : c_deg) {
@@ -253,12 +305,29 @@ private:
   std::vector<std::string_view> lines_;
 };
 
-/// Whether the third to sixth lines are those of EULUMDAT.
+/// Whether the second to sixth lines are those of EULUMDAT.
 bool looks_like_eulumdat(std::string_view text) {
   const std::vector<std::string_view> lines = lines_of(text.substr(0, 4096));
   if (lines.size() < 6) return false;
-  const auto is_whole = [](std::string_view line) { return typed_number<int>(line).has_value(); };
+  const auto is_whole = [](std::string_view line) {
+    return typed_number<int>(line.substr(0, line.find_first_of(",."))).has_value();
+  };
   return is_whole(lines[1]) && is_whole(lines[2]) && is_whole(lines[3]) && is_whole(lines[5]);
+}
+
+/// What a line "TILT=..." says, in lower case; nothing of another line.
+std::optional<std::string> tilt_of(std::string_view line) {
+  std::string text = lower_case(std::string(line.substr(0, 200)));
+  std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
+  return text.starts_with("tilt=") ? std::optional(text.substr(5)) : std::nullopt;
+}
+
+/// The commas between two digits as points.
+std::string with_points(std::string text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 1; i + 1 < text.size(); ++i)
+    if (text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1])) text[i] = '.';
+  return text;
 }
 
 } // namespace
@@ -269,15 +338,28 @@ Photometry load_photometry(const fs::path& file) {
   if (const std::uintmax_t bytes = fs::file_size(file, ignored); !ignored && bytes > most_bytes)
     throw bad_input(file.string(), fmt::format("has {} MiB", bytes >> 20),
                     fmt::format("expected a photometric file, of at most {} MiB", most_bytes >> 20));
-  const std::string text = read_file(file);
+  const std::string text = plain_text(read_file(file));
   int line = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view words = std::string_view(text).substr(begin, end - begin);
-    if (words.starts_with("TILT="))
-      return read_ies(file, std::string_view(text).substr(end), line + 1, words.starts_with("TILT=INCLUDE"));
+    const std::optional<std::string> tilt = tilt_of(std::string_view(text).substr(begin, end - begin));
     begin = end + 1;
-    ++line;
+    if (!tilt) continue;
+    if (tilt->empty())
+      throw bad_input(fmt::format("{}:{}", file.string(), line + 1), "TILT= says nothing",
+                      "expected NONE, INCLUDE or the name of a file");
+    const auto read = [&](const std::string& numbers) { return read_ies(file, numbers, line + 1, *tilt == "include"); };
+    const std::string numbers = text.substr(end);
+    try {
+      return read(numbers);
+    } catch (const Error&) {
+      // Some programs write 600,00 for 600.00. As commas part numbers, the counts are then wrong.
+      if (const std::string dotted = with_points(numbers); dotted != numbers) try {
+          return read(dotted);
+        } catch (const Error&) {
+        }
+      throw;
+    }
   }
   if (looks_like_eulumdat(text)) return Eulumdat(file, text).read();
   throw bad_input(file.string(), "is no photometric file",

@@ -16,9 +16,11 @@ struct Photometry {
   std::vector<double> intensity; ///< [c][gamma], of any unit; not negative, not all 0
 };
 
+/// Types A and B of IES become C planes in steps of half a degree of gamma and a degree of C. Type A is about the same
+/// vertical as C; what it is aimed at is at gamma = 90, C = 0. Of type B vertical and horizontal 0 is straight down.
 /// Throws bad_input at the file (with its line where there is one): not readable, larger than 16 MiB, neither kind of
-/// file, of type A or B, cut short, angles that do not rise or are out of range, an intensity that is negative or not
-/// finite, no light at all.
+/// file, cut short, angles that do not rise or are out of range, an intensity that is negative or not finite, no light
+/// at all.
 Photometry load_photometry(const std::filesystem::path& file);
 
 /// Linear in gamma and C between the file's directions. gamma_deg: 0..180; c_deg: 0..360.

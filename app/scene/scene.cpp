@@ -81,7 +81,9 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   const std::string label = label_of(object, scene.objects.size());
   const scatter::Material& material = scene.materials[static_cast<std::size_t>(pending.material)];
   const bool dielectric = is_body(material);
-  PlacedMesh placed = place(*pending.mesh, pending.placement, pending.bounds, scene.origin, dielectric, pending.where);
+  using Normals = preset::Object::Normals;
+  PlacedMesh placed = place(*pending.mesh, pending.placement, pending.bounds, scene.origin, dielectric,
+                            object.normals == Normals::smooth ? object.crease_deg : 180, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
   tell_damages(scene, placed.damages, damaged, label, pending.where);
   if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)
@@ -97,7 +99,9 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   result.name = object.name;
   result.material = pending.material;
   result.priority = object.priority;
-  result.smooth = object.normals == preset::Object::Normals::smooth && !placed.mesh.triangles.empty();
+  result.smooth =
+      !placed.mesh.triangles.empty() && (object.normals == Normals::smooth ||
+                                         (object.normals == Normals::given && object.mesh && placed.has_own_normals));
   result.first_vertex = static_cast<std::uint32_t>(scene.geometry.positions.size());
   result.vertex_count = static_cast<std::uint32_t>(placed.mesh.positions.size());
   result.first_triangle = static_cast<std::uint32_t>(scene.geometry.triangles.size());
@@ -193,8 +197,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
     add_light(preset.scene.lights[i], finder, where / "lights" / i, scene);
   if (preset.scene.environment) {
-    if (std::optional<Light> sun = make_sun(*preset.scene.environment, where / "environment"))
-      scene.lights.push_back(std::move(*sun));
+    if (std::optional<Light> sun = make_sun(*preset.scene.environment)) scene.lights.push_back(std::move(*sun));
     scene.environment = make_environment(*preset.scene.environment, finder, where / "environment", scene.warnings);
     if (scene.environment->lights) scene.lights.push_back(make_environment_light(*scene.environment));
   }

@@ -138,9 +138,9 @@ bool any_material(const Scene& scene, bool (*is)(const scatter::Material&));
 /// FILE#/pointer or at the mesh file, interrupted where `watch` asks for it.
 Scene load_scene(const preset::Preset& preset, const Watch& watch = {});
 
-/// The sun of a sky (sky.h): a disc of `sun_angular_diameter_deg`. Nothing where the environment has none.
-/// where: FILE#/scene/environment. Throws bad_input there where the sun is below the horizon.
-std::optional<Light> make_sun(const preset::Environment& environment, const Location& where);
+/// The sun of a sky (sky.h): a disc of `sun_angular_diameter_deg`. Nothing where the environment has none, and at
+/// night.
+std::optional<Light> make_sun(const preset::Environment& environment);
 
 /// Directional light of all directions together: its irradiance is that on a sphere, over the area of the sphere's
 /// shadow.

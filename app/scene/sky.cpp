@@ -103,21 +103,11 @@ double over_zenith(const PerezTable& terms, double t, double zenith, double from
   return perez(a, std::cos(zenith), from_sun) / perez(a, 1, sun_zenith);
 }
 
-/// Of a sky: before it is turned. Throws as make_sky.
-SunPlace place_of(const preset::Environment& sky, const Location& where) {
-  SunPlace place;
-  if (sky.place)
-    place = sun_place(*sky.place);
-  else {
-    const glm::dvec3 to = glm::normalize(to_dvec3(*sky.sun_direction));
-    place = {std::asin(std::clamp(to.y, -1.0, 1.0)) / degree, std::atan2(to.x, -to.z) / degree};
-  }
-  if (!(place.elevation_deg > 0))
-    throw bad_input(where / (sky.place ? "place" : "sun_direction"),
-                    fmt::format("puts the sun {:.1f} degrees below the horizon", -place.elevation_deg),
-                    "expected a sun above it: the model knows no twilight",
-                    sky.place ? "choose another hour, or look at utc_offset_h" : "");
-  return place;
+/// Of a sky: before it is turned.
+SunPlace place_of(const preset::Environment& sky) {
+  if (sky.place) return sun_place(*sky.place);
+  const glm::dvec3 to = glm::normalize(to_dvec3(*sky.sun_direction));
+  return {std::asin(std::clamp(to.y, -1.0, 1.0)) / degree, std::atan2(to.x, -to.z) / degree};
 }
 
 /// Adds to each of `sum` a factor times `by`.
@@ -187,13 +177,21 @@ optics::Colour sky_xyy(double zenith_deg, double from_sun_deg, double sun_zenith
           kcd * 1000 / 683 * over_zenith(luminance_terms, t, zenith, from_sun, s)};
 }
 
-Environment make_sky(const preset::Environment& sky, const Location& where) {
-  const SunPlace place = place_of(sky, where);
+bool is_night(const preset::Environment& environment) {
+  return environment.type == preset::Environment::Type::sky && !(place_of(environment).elevation_deg > 0);
+}
+
+Environment make_sky(const preset::Environment& sky) {
+  const SunPlace place = place_of(sky);
   const glm::dvec3 to_sun = to_sky(place);
   Environment result;
   result.width = sky_width;
   result.height = sky_height;
   result.rgb.resize(std::size_t{3} * sky_width * sky_height);
+  if (is_night(sky)) {
+    result.about = fmt::format("the sun is {:.1f} degrees below the horizon: the sky is dark", -place.elevation_deg);
+    return result;
+  }
   Colour on_ground{}; // irradiance
   for (int row = 0; row < sky_height / 2; ++row) {
     const double elevation_deg = 90 - 180 * (row + 0.5) / sky_height, steradians = texel_steradians(result, row);
@@ -221,9 +219,9 @@ Environment make_sky(const preset::Environment& sky, const Location& where) {
   return result;
 }
 
-std::optional<Light> make_sun(const preset::Environment& sky, const Location& where) {
-  if (sky.type != preset::Environment::Type::sky || sky.sun_scale == 0) return std::nullopt;
-  const SunPlace place = place_of(sky, where);
+std::optional<Light> make_sun(const preset::Environment& sky) {
+  if (sky.type != preset::Environment::Type::sky || sky.sun_scale == 0 || is_night(sky)) return std::nullopt;
+  const SunPlace place = place_of(sky);
   Light sun;
   sun.type = preset::Light::Type::directional;
   sun.direction = rotation({0, sky.rotate_deg, 0}) * -to_sky(place);

@@ -37,8 +37,10 @@ optics::Spectrum sun_irradiance(double elevation_deg, double turbidity);
 optics::Colour sky_xyy(double zenith_deg, double from_sun_deg, double sun_zenith_deg, double turbidity);
 
 /// The map of a sky without the sun's disc, before `rotate_deg`; colours beyond sRGB are in it. Texels below the
-/// horizon are the ground, lit by sky and sun. Throws bad_input at `where` (FILE#/scene/environment) where the sun is
-/// below the horizon.
-Environment make_sky(const preset::Environment& environment, const Location& where);
+/// horizon are the ground, lit by sky and sun. Black at night.
+Environment make_sky(const preset::Environment& environment);
+
+/// Whether it is a sky whose sun is below the horizon.
+bool is_night(const preset::Environment& environment);
 
 } // namespace nephroid::scene

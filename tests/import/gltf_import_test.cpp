@@ -162,6 +162,8 @@ TEST_F(GltfImport, CandelaAndLuxBecomeWatts) {
   }
   json["nodes"][2]["rotation"] = {-0.7071067811865476, 0, 0, 0.7071067811865476}; // -z turns to -y
   const std::vector<Light> lights = imported(json).scene.lights;
+  json["extensions"]["KHR_lights_punctual"]["lights"][1]["spot"]["innerConeAngle"] = 0;
+  EXPECT_NEAR(imported(json).scene.lights.at(1).power_w, 84.1787214 / 3 / k, 1e-6); // fades all the way
   ASSERT_EQ(lights.size(), 3u);
   EXPECT_EQ(lights[0].type, Light::Type::point);
   EXPECT_NEAR(lights[0].power_w, 4 * std::numbers::pi * 100 / k, 1e-9);
@@ -434,6 +436,23 @@ TEST_F(GltfImport, ACutFileIsOneError) {
   EXPECT_THAT(test::error_of([&] { import(std::string(100000, '[')); }).line(),
               HasSubstr("is nested deeper than 64 levels"));
   EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
+}
+
+TEST_F(GltfImport, FilesOfOtherKindsAreCalledWhatTheyAre) {
+  const auto said = [&](const std::string& name, const std::string& bytes) {
+    return refusal_of([&] { import(bytes, name); });
+  };
+  const std::string scenes = "; expected glTF (.gltf, .glb), Mitsuba (.xml) or PBRT (.pbrt)";
+  EXPECT_THAT(
+      said("stone.asc", "GemCad 5.0\ng 96 0.0\n"),
+      AllOf(HasSubstr("stone.asc: is a cutting list of GemCad, which is not read" + scenes + "; export the stone"),
+            Not(HasSubstr("JSON"))));
+  EXPECT_THAT(said("part", "ISO-10303-21;\nHEADER;\n"), HasSubstr("is a CAD model, which is not read" + scenes));
+  EXPECT_THAT(said("part.STEP", "x"), HasSubstr("is a CAD model, which is not read"));
+  EXPECT_THAT(said("cup.obj", "v 0 0 0\n"), HasSubstr("is a mesh and no scene" + scenes));
+  EXPECT_THAT(said("room.blend", "BLENDER-v300"), HasSubstr("is a scene of another kind, which is not read"));
+  EXPECT_THAT(said("n.csv", "nm,n\n400,1.5\n"), HasSubstr("n.csv: is no scene that is read here" + scenes));
+  EXPECT_THAT(said("words.gltf", "words"), HasSubstr("words.gltf: is no scene that is read here"));
 }
 
 } // namespace nephroid::gltf_import_test

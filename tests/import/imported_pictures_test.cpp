@@ -8,9 +8,6 @@ namespace nephroid::imported_pictures_test {
 
 class ImportedPictures : public test::ImportsScenes {
 protected:
-  preset::Preset mitsuba(const std::string& scene) {
-    return imported("<scene version=\"3.0.0\">" + scene + "</scene>", "in.xml");
-  }
   preset::Preset pbrt(const std::string& world) { return imported("WorldBegin\n" + world, "in.pbrt"); }
 };
 
@@ -54,7 +51,7 @@ TEST_F(ImportedPictures, AreOfRoughnessTintAndNormalsInMitsuba) {
   EXPECT_EQ(material_of(p, glass).tint_texture->file, fs::absolute(folder.path() / "p.png").string());
   std::size_t with_map = 0, matt = 0;
   for (std::size_t i = 0; i < p.scene.objects.size(); ++i) {
-    matt += material_of(p, i).type == preset::Material::Type::diffuse;
+    matt += material_of(p, i).type == preset::Material::Type::diffuse && p.scene.objects[i].material != "black back";
     if (!material_of(p, i).normal_map) continue;
     ++with_map;
     const image::Image normals = image::read_image(folder.path() / material_of(p, i).normal_map->file);
@@ -105,6 +102,67 @@ TEST_F(ImportedPictures, AreOfRoughnessAndNormalsInPbrt) {
   EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("the texture \"roughness\" is left out: 0 takes its place"),
                                         HasSubstr("its \"normalmap\" is left out")}));
   EXPECT_NO_THROW(scene::load_scene(p));
+}
+
+// Version 0.6: u and v times their scales, plus their offsets. From the bottom 1 - v' = 3 (1 - v) - 2.25.
+TEST_F(ImportedPictures, AnOldTextureHasScalesAndOffsets) {
+  image::write_png(folder.path() / "p.png", 1, 1, {0.5f, 0.25f, 1});
+  const preset::Preset p = mitsuba(R"(<shape type='rectangle'><bsdf type="diffuse"><texture type="bitmap"
+    name="reflectance"><string name="filename" value="p.png"/><float name="uscale" value="2"/>
+    <float name="vscale" value="3"/><float name="uoffset" value=".5"/><float name="voffset" value=".25"/></texture>
+    </bsdf></shape>)");
+  const preset::Texture& texture = *material_of(p, 0).texture;
+  EXPECT_THAT(texture.scale, ElementsAre(DoubleNear(2, 1e-12), DoubleNear(3, 1e-12)));
+  EXPECT_THAT(texture.offset, ElementsAre(DoubleNear(0.5, 1e-12), DoubleNear(-2.25, 1e-12)));
+}
+
+/// Of reflectances, as they are after the import: linear.
+float first_texel(const preset::Texture& texture, const fs::path& folder) {
+  const image::Image picture = image::read_image(folder / texture.file);
+  EXPECT_FALSE(picture.integers);
+  return picture.data.at(0);
+}
+
+// 188 of 255 is .737 where it is no sRGB, and 1 minus that where it is turned round.
+TEST_F(ImportedPictures, MayBeLinearAndInverted) {
+  image::write_png(folder.path() / "p.png", 1, 1, {0.5f, 0.5f, 0.5f});
+  const preset::Preset m = mitsuba(R"(<shape type="rectangle"><bsdf type="twosided"><bsdf type="diffuse"><texture
+    type="bitmap" name="reflectance"><string name="filename" value="p.png"/><boolean name="raw" value="true"/></texture>
+    </bsdf></bsdf></shape>)");
+  EXPECT_NEAR(first_texel(*material_of(m, 0).texture, folder.path()), 188.0 / 255, 1e-6);
+  EXPECT_THAT(made.notes, Each(Not(HasSubstr("raw"))));
+  const auto with = [&](const std::string& more) {
+    const preset::Preset p = pbrt("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"p.png\" " + more +
+                                  "\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\n"
+                                  "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n");
+    return first_texel(*material_of(p, 0).texture, folder.path());
+  };
+  EXPECT_NEAR(with("\"string encoding\" \"linear\""), 188.0 / 255, 1e-6);
+  EXPECT_NEAR(with("\"bool invert\" true"), 0.5, 4e-3);
+  EXPECT_NEAR(with("\"bool invert\" true \"string encoding\" \"linear\""), 1 - 188.0 / 255, 1e-6);
+}
+
+// A lamp, a mirror or a number of the sky has no texture here: what it has on the mean is taken.
+TEST_F(ImportedPictures, AreTakenByTheirMeanWhereNothingElseIs) {
+  image::write_exr(folder.path() / "p.exr", {2, 1, {"R", "G", "B"}, {0.5f, 0.5f, 0.5f, 0, 0, 0}});
+  image::write_png(folder.path() / "p.png", 2, 1, {0.5f, 0.5f, 0.5f, 0, 0, 0});
+  const auto power = [](const preset::Preset& p) { return p.scene.lights.at(0).power_w / p.white.value(); };
+  const auto glowing = [&](const std::string& radiance) {
+    return power(mitsuba("<shape type='rectangle'><emitter type='area'>" + radiance + "</emitter></shape>"));
+  };
+  const double plain = glowing("<rgb name='radiance' value='1'/>");
+  const auto bitmap = [](const char* file, const char* more) {
+    return fmt::format("<texture name='radiance' type='bitmap'><string name='filename' value='{}'/>{}</texture>", file,
+                       more);
+  };
+  EXPECT_NEAR(glowing(bitmap("p.exr", "")) / plain, 0.25, 1e-6);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("this texture is taken by its mean")));
+  EXPECT_NEAR(glowing(bitmap("p.png", "")) / plain, 0.25, 2e-3);
+  EXPECT_NEAR(glowing(bitmap("p.png", "<boolean name='raw' value='true'/>")) / plain, 188.0 / 510, 1e-6);
+  const auto lamp = [&](const std::string& light) {
+    return power(pbrt("AreaLightSource \"diffuse\" " + light + "\nShape \"sphere\"\n"));
+  };
+  EXPECT_NEAR(lamp("\"string filename\" \"p.exr\" \"float scale\" 3") / lamp("\"rgb L\" [3 3 3]"), 0.25, 1e-6);
 }
 
 } // namespace nephroid::imported_pictures_test

@@ -14,6 +14,9 @@ protected:
     made = formats::import_scene(folder.write(name, text), folder.path() / "out.json");
     return preset::read_preset(made.preset.string());
   }
+  preset::Preset mitsuba(const std::string& scene) {
+    return imported("<scene version=\"3.0.0\">" + scene + "</scene>", "in.xml");
+  }
   static const preset::Material& material_of(const preset::Preset& p, std::size_t object) {
     return p.scene.materials.at(p.scene.objects.at(object).material);
   }

@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "scatter/spectra.h"
 #include "scene/mesh.h"
+#include "scene/scene.h"
 #include "tests/import/imports_scenes.h"
 
 #include <zlib.h>
@@ -42,6 +43,10 @@ TEST_F(MitsubaImport, EveryValueThatIsLeftOutIsSaid) {
   EXPECT_THAT(made.notes, Each(Not(AnyOf(HasSubstr("reflectance"), HasSubstr("sampling_weight")))));
 }
 
+TEST_F(MitsubaImport, ADoubledFileIsRefused) {
+  EXPECT_THAT(refusal("</scene>\n<scene>"), HasSubstr("in.xml:3: a second <scene> begins behind the scene's end"));
+}
+
 TEST_F(MitsubaImport, NamesOfAnIncludedFileAreLookedUpFromTheScene) {
   folder.write("meshes/t.obj", tetrahedron);
   folder.write("parts/glass.xml", R"(<scene version="3.0.0"><include filename="parts/one.xml"/>
@@ -70,7 +75,7 @@ TEST_F(MitsubaImport, IdsAreResolvedAfterReading) {
     <medium type="homogeneous" id="dye"><float name="sigma_t" value="2"/><float name="albedo" value="0"/></medium>)");
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("no camera")));
   ASSERT_EQ(p.scene.lights.size(), 1u);
-  ASSERT_EQ(p.scene.objects.size(), 3u);
+  ASSERT_EQ(p.scene.objects.size(), 5u); // with two backs
   EXPECT_EQ(p.scene.lights[0].object, p.scene.objects[0].name);
   EXPECT_EQ(material_of(p, 1).dispersion.type, preset::Dispersion::Type::file); // for its k
   EXPECT_EQ(material_of(p, 2).reflectance.value, 0.25);
@@ -384,11 +389,11 @@ TEST_F(MitsubaImport, ASunAndSkyIsASky) {
     fs::remove(folder.path() / "out.json");
     return imported(scene(emitter), "in.xml").scene.environment;
   };
-  const std::string up = R"(<vector name="sun_direction" x="0" y="0" z="1"/>)";
+  const std::string up = R"(<vector name="sun_direction" x="0" y="1" z="0"/>)";
   EXPECT_EQ(environment("<emitter type=\"sun\">" + turned + up + "</emitter>")->radiance, 0);
   EXPECT_EQ(environment("<emitter type=\"sky\">" + turned + up + "</emitter>")->sun_scale, 0);
   EXPECT_EQ(
-      environment("<emitter type=\"sky\">" + turned + R"(<vector name="sun_direction" x="0" y="0" z="-1"/></emitter>)"),
+      environment("<emitter type=\"sky\">" + turned + R"(<vector name="sun_direction" x="0" y="-1" z="0"/></emitter>)"),
       std::nullopt);
   EXPECT_THAT(made.notes, Contains(HasSubstr("the sun is below the horizon: the emitter is left out")));
 }
@@ -464,7 +469,7 @@ TEST_F(MitsubaImport, ItsOwnMeshesAreRead) {
     folder.write("two.serialized", two_meshes(version));
     const std::string shape = R"(<shape type="serialized"><string name="filename" value="two.serialized"/>)";
     const preset::Preset p = imported(shape + "</shape>" + shape + R"(<integer name="shapeIndex" value="1"/></shape>)");
-    ASSERT_EQ(p.scene.objects.size(), 2u);
+    ASSERT_EQ(p.scene.objects.size(), 4u); // with their backs
     EXPECT_EQ(scene::load_mesh(folder.path() / *p.scene.objects[0].mesh).triangles.size(), 1u);
     EXPECT_EQ(p.scene.objects[0].normals, preset::Object::Normals::faceted); // so say its flags
     const scene::Mesh square = scene::load_mesh(folder.path() / *p.scene.objects[1].mesh);

@@ -73,13 +73,13 @@ TEST_F(PbrtImport, EveryMeshFileIsAMeshOfItsOwn) {
 
 // The parameters of a directive that nothing here reads.
 TEST_F(PbrtImport, EveryParameterThatIsLeftOutIsSaid) {
-  imported("Film \"rgb\" \"string filename\" \"x.exr\" \"float cropwindow\" [0 .5 0 1]\nWorldBegin\n"
+  imported("Film \"rgb\" \"string filename\" \"x.exr\" \"float diagonale\" 3\nWorldBegin\n"
            "LightSource \"infinite\"\nLightSource \"infinite\"\n"
            "Material \"diffuse\" \"texture displacement\" \"bumps\" \"rgb reflectance\" [.1 .2 .3]\n"
            "Shape \"sphere\" \"float phimax\" 180\nShape \"disk\" \"float innerradius\" .2\n"
            "Shape \"sphere\" \"float radius\" 1 \"float zmin\" -1 \"float zmax\" 1 \"float phimax\" 360\n");
   EXPECT_THAT(made.notes,
-              IsSupersetOf({HasSubstr("in.pbrt:1: its \"cropwindow\" is left out"),
+              IsSupersetOf({HasSubstr("in.pbrt:1: its \"diagonale\" is left out"),
                             HasSubstr("in.pbrt:4: a second light infinite is left out"),
                             HasSubstr("in.pbrt:5: its \"displacement\" is left out"),
                             HasSubstr("in.pbrt:6: a part of a sphere"), HasSubstr("in.pbrt:7: a part of a disk")}));

@@ -127,7 +127,7 @@ TEST_F(SceneImport, SurfacesStayAndShine) {
     <shape type="rectangle"><emitter type="area"/></shape>
     <shape type="cube"><boolean name="flipNormals" value="true"/><emitter type="area"/></shape></scene>)",
                "in.xml");
-  ASSERT_EQ(p.scene.objects.size(), 3u);
+  ASSERT_EQ(p.scene.objects.size(), 4u) << "the rectangle's back is black";
   ASSERT_EQ(p.scene.lights.size(), 3u);
   const std::vector<preset::Light>& lights = p.scene.lights;
   for (const std::size_t i : {0, 1, 2}) {
@@ -166,9 +166,9 @@ TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine) {
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.xml:11: the shape hair is left out")));
   EXPECT_EQ(p.not_imported, made.notes) << "the preset keeps them";
   EXPECT_EQ(read_file(folder.path() / "out-not-imported.txt"), made.notes[0] + "\n") << "and a text beside it";
-  imported(pbrt + "Shape \"curve\"\nLightSource \"goniometric\"\n", "in.pbrt");
+  imported(pbrt + "Shape \"curve\"\nLightSource \"projection\"\n", "in.pbrt");
   EXPECT_THAT(made.notes,
-              ElementsAre(HasSubstr("in.pbrt:13: the shape curve"), HasSubstr("in.pbrt:14: the light goniometric")));
+              ElementsAre(HasSubstr("in.pbrt:13: the shape curve"), HasSubstr("in.pbrt:14: the light projection")));
 }
 
 TEST_F(SceneImport, BrokenFilesAreRefusedAtTheirLine) {

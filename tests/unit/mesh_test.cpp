@@ -4,6 +4,8 @@
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
 
+#include <numbers>
+
 namespace nephroid::scene::mesh_test {
 
 /// Six quadrilaterals about the cube [0, 2]^3, outwards.
@@ -250,6 +252,37 @@ TEST(SmoothNormals, DoNotDependOnTheCut) {
   compute_smooth_normals(mesh);
   for (std::size_t i = 0; i < 8; ++i)
     EXPECT_LT(glm::distance(mesh.normals[i], glm::normalize(mesh.positions[i] - glm::vec3(1))), 1e-6f) << i;
+}
+
+// Edges of a cube bend by 90 degrees, those of a prism with 12 sides by 30: its sides are one surface, and its ends are
+// flat.
+TEST(SmoothNormals, StopAtSharpEdges) {
+  Mesh sharp = cube(), round = cube();
+  compute_smooth_normals(sharp, 89);
+  compute_smooth_normals(round, 91);
+  EXPECT_EQ(sharp.positions.size(), 24u);
+  EXPECT_EQ(round.positions.size(), 8u);
+  for (const glm::vec3& n : sharp.normals) EXPECT_NEAR(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1, 1e-6);
+  Mesh drum{.positions = {{0, 0, 0}, {0, 1, 0}}};
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const double a = std::numbers::pi / 6 * i;
+    for (const float y : {0.0f, 1.0f}) drum.positions.emplace_back(std::cos(a), y, -std::sin(a));
+    const std::uint32_t low = 2 + 2 * i, next = 2 + 2 * ((i + 1) % 12);
+    drum.triangles.insert(drum.triangles.end(),
+                          {{low, next, low + 1}, {next, next + 1, low + 1}, {0, next, low}, {1, low + 1, next + 1}});
+  }
+  EXPECT_GT(inspect(drum).signed_volume, 0);
+  compute_smooth_normals(drum, 40);
+  EXPECT_EQ(drum.positions.size(), 24u + 2 * 13);
+  EXPECT_TRUE(inspect(drum).closed());
+  for (std::size_t i = 0; i < drum.normals.size(); ++i) {
+    const glm::vec3 n = drum.normals[i], p = drum.positions[i];
+    if (std::abs(n.y) > 1e-5f) {
+      EXPECT_NEAR(n.y, p.y > 0 ? 1 : -1, 1e-6);
+    } else {
+      EXPECT_LT(glm::distance(n, glm::vec3(p.x, 0, p.z)), 1e-5f);
+    }
+  }
 }
 
 TEST(SmoothNormals, AreUnitEvenWhereNothingSaysSo) {

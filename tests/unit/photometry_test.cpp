@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 namespace nephroid::photometry_test {
 
@@ -31,6 +32,7 @@ std::string ies(const std::string& numbers, const std::string& tilt = "TILT=NONE
   return "IESNA:LM-63-1995\n[TEST] 1\n" + tilt + "1 1000 " + numbers;
 }
 const std::string size = " 1 2 0 0 0\n1 1 10\n"; // type C
+constexpr double degree = std::numbers::pi / 180;
 
 TEST_F(Photometry, RotatesWhatHasOnePlane) {
   const scene::Photometry p = read(ies("2 3 1" + size + "0 30, 90\n0\n10 5\n1\n"));
@@ -67,6 +69,76 @@ TEST_F(Photometry, TiltChangesNoDirection) {
   EXPECT_DOUBLE_EQ(intensity(read(ies("1 2 1" + size + "0 90\n0\n8 4\n", "TILT=other.tlt\n")), 45, 0), 6);
 }
 
+/// A file of the type whose intensity is f(vertical, horizontal), at every 5 degrees of a range.
+std::string ies_of(int type, int from_v, int to_v, int from_h, int to_h,
+                   const std::function<double(double, double)>& f) {
+  std::string v_list, h_list, values;
+  for (int v = from_v; v <= to_v; v += 5) v_list += fmt::format("{} ", v);
+  for (int h = from_h; h <= to_h; h += 5) {
+    h_list += fmt::format("{} ", h);
+    for (int v = from_v; v <= to_v; v += 5) values += fmt::format("{} ", f(v * degree, h * degree));
+    values += "\n";
+  }
+  return ies(fmt::format("1 {} {} {} 2 0 0 0\n1 1 10\n{}\n{}\n{}", (to_v - from_v) / 5 + 1, (to_h - from_h) / 5 + 1,
+                         type, v_list, h_list, values));
+}
+
+// LM-63: in type B vertical and horizontal 0 is down, vertical 90 is C = 0; horizontal angles go clockwise.
+TEST_F(Photometry, TypeBIsAboutAHorizontalAxis) {
+  const auto cosine = [](double v, double h) { return std::cos(v) * std::cos(h); };
+  for (const int from_v : {-90, 0})
+    for (const int from_h : {-90, 0}) {
+      const scene::Photometry p = read(ies_of(2, from_v, 90, from_h, 90, cosine));
+      for (const double gamma : {0.0, 20.0, 50.0, 85.0, 90.0, 120.0})
+        for (const double c : {0.0, 40.0, 90.0, 135.0, 200.0, 270.0, 300.0})
+          EXPECT_NEAR(intensity(p, gamma, c), std::max(std::cos(gamma * degree), 0.0), 4e-3) << gamma << " " << c;
+    }
+  const scene::Photometry ahead =
+      read(ies_of(2, -90, 90, -90, 90, [](double v, double h) { return 1 + std::sin(v) * std::cos(h); }));
+  EXPECT_NEAR(intensity(ahead, 60, 30), 1 + std::sin(60 * degree) * std::cos(30 * degree), 4e-3);
+  const scene::Photometry right = read(ies_of(2, -90, 90, -90, 90, [](double, double h) { return 1 + std::sin(h); }));
+  EXPECT_NEAR(intensity(right, 60, 270), 1 + std::sin(60 * degree), 4e-3);
+  EXPECT_NEAR(intensity(right, 60, 45), 1 - std::sin(60 * degree) * std::sin(45 * degree), 4e-3);
+  EXPECT_EQ(intensity(right, 91, 0), 0);
+}
+
+// LM-63: in type A vertical -90 is down, vertical and horizontal 0 is gamma = 90, C = 0.
+TEST_F(Photometry, TypeAIsAboutTheVertical) {
+  for (const int from_v : {-90, 0})
+    for (const int from_h : {-90, 0}) {
+      const scene::Photometry p =
+          read(ies_of(3, from_v, 90, from_h, 90, [](double v, double h) { return std::cos(v) * std::cos(h); }));
+      for (const double gamma : {20.0, 60.0, 90.0, 140.0})
+        for (const double c : {0.0, 40.0, 120.0, 300.0, 360.0})
+          EXPECT_NEAR(intensity(p, gamma, c), std::max(std::sin(gamma * degree) * std::cos(c * degree), 0.0), 4e-3)
+              << gamma << " " << c;
+    }
+  const scene::Photometry right =
+      read(ies_of(3, -90, 90, -90, 90, [](double v, double h) { return 2 + std::sin(h) + std::sin(v); }));
+  EXPECT_NEAR(intensity(right, 60, 330), 2 + 0.5 - 0.5, 4e-3);
+}
+
+TEST_F(Photometry, SpellingsOfAFileAreOne) {
+  const std::string numbers = "2 3 1" + size + "0 30, 90\n0\n10.5 5.25\n1\n", plain = ies(numbers);
+  const std::string included = "1\n3\n0 45 90\n1 .9 .8\n";
+  std::string dos, mac, blanks, wide = "\xff\xfe";
+  for (const char c : plain) {
+    dos += c == '\n' ? "\r\n" : std::string(1, c);
+    mac += c == '\n' ? '\r' : c;
+    blanks += c == ' ' ? "\t  " : std::string(1, c);
+    wide += {c, '\0'};
+  }
+  for (const std::string& text :
+       {plain, dos, mac, blanks, wide, "\xef\xbb\xbf" + plain, ies(numbers, "Tilt=None\n"),
+        ies(numbers, "tilt=none \r\n"), ies(numbers, " TILT = NONE\n"), ies(numbers, "TILT= INCLUDE\n" + included),
+        ies(numbers, "tilt=include\n" + included), ies("2,3,1,1,2,0,0,0\n1,1,10\n0,30,90\n0\n10.5,5.25,1\n"),
+        ies("2,0 3 1" + size + "0 30,0 90\n0\n10,5, 5,25\n1,0\n")}) {
+    const scene::Photometry p = read(text);
+    EXPECT_DOUBLE_EQ(intensity(p, 0, 10), 21) << text;
+    EXPECT_DOUBLE_EQ(intensity(p, 60, 10), 6.25) << text;
+  }
+}
+
 TEST_F(Photometry, RefusesWhatItCannotRead) {
   const std::string good = "1 2 2" + size + "0 90\n0 90\n1 1\n1 1\n";
   EXPECT_NO_THROW(read(ies(good)));
@@ -85,7 +157,13 @@ TEST_F(Photometry, RefusesWhatItCannotRead) {
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 190\n0 90\n1 1\n1 1\n")), HasSubstr("is 190 degrees; expected 0 to 180"));
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n0 100\n1 1\n1 1\n")), HasSubstr("expected 0, 90, 180 or 360"));
   EXPECT_THAT(refusal(ies("1 2 2" + size + "0 90\n10 90\n1 1\n1 1\n")), HasSubstr("the first horizontal angle is 10"));
-  EXPECT_THAT(refusal(ies("1 2 2 2 2 0 0 0\n1 1 10\n0 90\n0 90\n1 1\n1 1\n")), HasSubstr("type B; expected type C"));
+  EXPECT_THAT(refusal(ies("1 2 2 4 2 0 0 0\n1 1 10\n0 90\n0 90\n1 1\n1 1\n")),
+              HasSubstr("the photometric type is 4; expected a whole number from 1 to 3"));
+  EXPECT_THAT(refusal(ies("1 2 2 2 2 0 0 0\n1 1 10\n0 90\n0 100\n1 1\n1 1\n")), HasSubstr("expected -90 to 90"));
+  EXPECT_THAT(refusal(ies("1 2 2 3 2 0 0 0\n1 1 10\n10 90\n0 90\n1 1\n1 1\n")),
+              HasSubstr("the first vertical angle is 10 degrees; expected 0 or less"));
+  EXPECT_THAT(refusal(ies("1 2 1 2 2 0 0 0\n1 1 10\n0 90\n0\n1 1\n")), HasSubstr("there is one horizontal angle"));
+  EXPECT_THAT(refusal(ies(good, "TILT=\n")), HasSubstr("lamp.ies:3: TILT= says nothing; expected NONE, INCLUDE"));
   EXPECT_THAT(refusal(ies("1 2.5 2" + size)), HasSubstr("the number of vertical angles is 2.5"));
   EXPECT_THAT(refusal(ies("1 1e9 2" + size)), HasSubstr("expected a whole number from 1 to 10000"));
   EXPECT_THAT(refusal("P6 3 3 255 ..."), HasSubstr("is no photometric file"));
@@ -121,6 +199,10 @@ TEST_F(Photometry, ReadsEulumdat) {
   EXPECT_THAT(at(2, {1, 2, 4}), ElementsAre(1, 2, 4, 2, 1.5));
   EXPECT_THAT(at(3, {1, 2, 4}), ElementsAre(2, 4, 2, 1, 1.5)); // from 270 by 0 to 90 degrees
   EXPECT_THAT(at(4, {1, 3}), ElementsAre(1, 3, 1, 3, 2));
+  std::string spelt = eulumdat(4, {1, 3});
+  std::ranges::replace(spelt, '\n', '\r');
+  spelt.replace(spelt.find("\r4\r4\r"), 5, "\r 4,0 \r4.0\r");
+  EXPECT_EQ(intensity(read(spelt, "lamp.ldt"), 77, 315), 2);
 }
 
 // A plane just beyond 180 degrees, mirrored, is next to nothing below 0, which is 360 where it is rounded.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The clear sky and its sun: where the sun is, against published positions; the model against its closed form; the map
 // against its lights.
+#include "preset/read.h"
+#include "run/night.h"
+#include "run/prepare.h"
 #include "scene/scene.h"
 #include "scene/sky.h"
 #include "tests/support/loaded_scenes.h"
@@ -17,8 +20,6 @@ preset::Environment sky_of(const glm::dvec3& to_sun) {
   sky.sun_direction = to_vec3(to_sun);
   return sky;
 }
-
-const Location where = Location("sky.json") / "scene" / "environment";
 
 /// Meeus, "Astronomical Algorithms" (2nd edition), example 25.a: 1992 October 13, 0h TD: declination -7.78507 degrees,
 /// right ascension 198.38083. Below the pole the elevation is the declination.
@@ -94,7 +95,7 @@ TEST(Sky, SunIsWeakenedByItsAir) {
 
 TEST(Sky, MapIsTheModelAndItsGround) {
   const glm::dvec3 to_sun = to_sky({40, 120});
-  const Environment map = make_sky(sky_of(to_sun), where);
+  const Environment map = make_sky(sky_of(to_sun));
   ASSERT_EQ(map.width, sky_width);
   // The brightest texel is the sun's, and the ground is one colour: albedo / pi times its irradiance.
   std::size_t brightest = 0;
@@ -109,7 +110,7 @@ TEST(Sky, MapIsTheModelAndItsGround) {
     }
   EXPECT_NEAR(180.0 * (static_cast<double>(brightest / sky_width) + 0.5) / sky_height, 50, 3);
   EXPECT_NEAR(360.0 * (static_cast<double>(brightest % sky_width) + 0.5) / sky_width - 180, 120, 1);
-  const Light sun = make_sun(sky_of(to_sun), where).value();
+  const Light sun = make_sun(sky_of(to_sun)).value();
   const optics::Colour direct = optics::xyz_to_linear_srgb(optics::to_xyz(sun.spectrum));
   for (std::size_t c = 0; c < 3; ++c)
     EXPECT_NEAR(map.rgb[map.rgb.size() - 3 + c],
@@ -133,14 +134,43 @@ TEST(Sky, SunIsALightOfTheScene) {
   EXPECT_EQ(load_scene(preset).lights.size(), 2);
 }
 
-TEST(Sky, SunBelowTheHorizonIsRefused) {
-  preset::Environment night = sky_of({0, -1, 1});
-  EXPECT_EQ(refusal_of([&] { make_sky(night, where); }),
-            "sky.json#/scene/environment/sun_direction: puts the sun 45.0 degrees below the horizon; expected a sun "
-            "above it: the model knows no twilight");
+TEST(Sky, IsDarkAtNight) {
+  preset::Preset preset = ball_over_floor();
+  preset::Environment& night = preset.scene.environment.emplace(sky_of({0, -1, 1}));
+  night.lights = true;
+  const Scene scene = load_scene(preset);
+  EXPECT_THAT(scene.lights, SizeIs(1)) << "the preset's";
+  EXPECT_TRUE(scene.environment->is_black());
+  EXPECT_EQ(scene.environment->about, "the sun is 45.0 degrees below the horizon: the sky is dark");
   night.sun_direction.reset();
   night.place = PlaceAndTime{.latitude_deg = 50, .date = "2026-06-21", .hour = 0};
-  EXPECT_THAT(refusal_of([&] { make_sky(night, where); }), HasSubstr("/place: puts the sun 16.6 degrees below"));
+  EXPECT_THAT(make_sky(night).about, HasSubstr("16.6 degrees below"));
+  EXPECT_FALSE(make_sun(night));
+}
+
+/// Antwerp: the sun rises at 5:34 and sets at 21:55, without air.
+constexpr const char* midsummer = R"({"engine": "spectral", "scene": {"environment": {"type": "sky", "place": {
+  "latitude_deg": 51.22, "longitude_deg": 4.4, "date": "2026-06-21", "hour": 19, "utc_offset_h": 2}}})";
+constexpr const char* whole_day = R"(animation={"frames": 19, "tracks": [
+  {"path": "scene.camera.fov_deg", "keys": [{"frame": 0, "value": 30}]},
+  {"path": "scene.environment.place.hour", "keys": [{"frame": 0, "value": 4}, {"frame": 18, "value": 22}]}]})";
+
+TEST(Sky, NightIsSaidWithWhoMadeIt) {
+  const auto preset_of = [](const preset::Overrides& overrides) {
+    return preset::parse_preset(std::string(midsummer) + "}", "day.json", overrides);
+  };
+  EXPECT_EQ(run::night_note(preset_of({})), "");
+  EXPECT_EQ(run::night_note(preset_of({"scene.environment.place.hour=3"})),
+            "--set scene.environment.place.hour=3: the sun is below the horizon: the sky, which knows no twilight, is "
+            "dark; for light choose another hour, or look at utc_offset_h");
+  const preset::Preset day = preset_of({whole_day});
+  EXPECT_THAT(run::night_note(day), HasSubstr("in the frames 0-1, 18: the sky"));
+  EXPECT_THAT(run::prepare(day).plan->notes, Contains(run::night_note(day)));
+  EXPECT_EQ(run::by_day(day).scene.environment->place->hour, 6);
+  EXPECT_EQ(run::by_day(preset_of({})).scene.environment->place->hour, 19);
+  const preset::Preset of_file = preset::parse_preset(
+      std::string(midsummer) + ", \"animation\": " + std::string(whole_day).substr(10) + "}", "day.json");
+  EXPECT_THAT(run::night_note(of_file), StartsWith("day.json#/animation/tracks/1: the sun"));
 }
 
 } // namespace nephroid::scene::sky_test

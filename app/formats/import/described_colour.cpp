@@ -41,14 +41,6 @@ Rows rows_of(const optics::Spectrum& spectrum) {
   return rows;
 }
 
-double at_nm(const Rows& rows, double nm) {
-  const auto after = std::ranges::upper_bound(rows, nm, {}, [](const auto& row) { return row[0]; });
-  if (after == rows.begin()) return 0;
-  const auto& low = *(after - 1);
-  if (after == rows.end()) return nm > low[0] ? 0 : low[1];
-  return std::lerp(low[1], (*after)[1], (nm - low[0]) / ((*after)[0] - low[0]));
-}
-
 } // namespace
 
 bool DescribedColour::is_black() const { return spectrum ? !(luminance > 0) : !(std::max({rgb.x, rgb.y, rgb.z}) > 0); }
@@ -69,7 +61,7 @@ DescribedColour spectrum_of_rows(Rows rows, double unit, const Location& where) 
     if (i > 0 && rows[i][0] == rows[i - 1][0])
       throw bad_input(where, fmt::format("the spectrum has {} nm twice", rows[i][0]));
   }
-  return spectral(optics::spectrum_of([&](double nm) { return at_nm(rows, nm); }), unit);
+  return spectral(optics::spectrum_of_table(rows), unit);
 }
 
 Rows rows_of_file(const std::filesystem::path& file, const Location& where) {
@@ -159,6 +151,23 @@ void make_plastic(preset::Material& matt, double n, double roughness, bool below
   const auto darken = [&](double& part) { part = optics::seen_below_coat(coat, matt.dispersion.n, part); };
   darken(matt.reflectance.value);
   for (auto& row : matt.reflectance.table) darken(row[1]);
+}
+
+preset::Material mixed(const preset::Material& one, const preset::Material& other, double weight, const Location& where,
+                       Description& into) {
+  preset::Material made = one;
+  made.reflectance = other.reflectance;
+  if (!(made == other)) {
+    into.note(where, "materials that are not of one kind are not blended: the heavier one is taken");
+    return weight > 0.5 ? other : one;
+  }
+  DescribedColour mean;
+  mean.spectrum = scatter::make_reflectance(one.reflectance, where);
+  const optics::Spectrum second = scatter::make_reflectance(other.reflectance, where);
+  for (std::size_t i = 0; i < second.size(); ++i)
+    (*mean.spectrum)[i] = std::lerp((*mean.spectrum)[i], second[i], std::clamp(weight, 0.0, 1.0));
+  made.reflectance = reflectance_of(mean);
+  return made;
 }
 
 optics::Spectrum values_of(const DescribedColour& colour) {

@@ -12,6 +12,8 @@
 
 namespace nephroid::formats {
 
+struct Description;
+
 struct DescribedColour {
   glm::dvec3 rgb{1}; ///< linear sRGB; not looked at where there is a spectrum
   std::optional<optics::Spectrum> spectrum;
@@ -38,6 +40,10 @@ preset::Reflectance reflectance_of(const DescribedColour& colour);
 /// Turns a matt material into plastic. below: its reflectance is that of the base below the coat, and light that goes
 /// back and forth between both makes it darker; false: it is what is seen, as a preset has it.
 void make_plastic(preset::Material& matt, double n, double roughness, bool below);
+/// (1 - weight) of one and `weight` of the other, where they differ in nothing but their reflectances; else the heavier
+/// one, with a note.
+preset::Material mixed(const preset::Material& one, const preset::Material& other, double weight, const Location& where,
+                       Description& into);
 /// At each wavelength; of rgb the smoothest spectrum, as of a reflectance.
 optics::Spectrum values_of(const DescribedColour& colour);
 

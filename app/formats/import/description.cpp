@@ -84,6 +84,12 @@ std::string Description::own_file(const std::string& name, const char* ending) {
   }
 }
 
+std::string Description::own_bytes(const std::string& name, const char* ending, const ByteStore& bytes) {
+  const std::string file = own_file(name, ending);
+  files.emplace(file, std::string(reinterpret_cast<const char*>(bytes.bytes().data()), bytes.bytes().size()));
+  return file;
+}
+
 std::string name_of(const std::string& text, const std::string& otherwise) {
   std::string name = text.substr(0, 60);
   for (char& c : name)
@@ -186,6 +192,15 @@ scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double r
     mesh.triangles.emplace_back(a, b + 1, a + 1);
   }
   return mesh;
+}
+
+void crop(DescribedCamera& camera, const glm::dvec2& corner, const glm::dvec2& size) {
+  const glm::dvec2 whole(camera.resolution[0], camera.resolution[1]), middle = (corner + 0.5 * size) / whole - 0.5;
+  camera.shift = (camera.shift + glm::dvec2(middle.x, -middle.y)) * whole / size;
+  const double part = size.y / whole.y;
+  camera.fov_deg = glm::degrees(2 * std::atan(std::tan(glm::radians(camera.fov_deg) / 2) * part));
+  if (camera.height) *camera.height *= part;
+  camera.resolution = {static_cast<int>(size.x), static_cast<int>(size.y)};
 }
 
 } // namespace nephroid::formats

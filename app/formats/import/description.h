@@ -2,6 +2,7 @@
 // What the readers of glTF, Mitsuba and PBRT files find, in the file's own coordinates and units. import.cpp makes a
 // preset of it. Intensities are colours whose luminance is in the file's unit of power.
 #pragma once
+#include "base/bytes.h"
 #include "formats/import/described_colour.h"
 #include "scene/mesh.h"
 
@@ -33,11 +34,13 @@ struct DescribedShape {
   glm::dmat4 to_world{1};              ///< in the file's coordinates
   std::string material;                ///< a key of Description::materials
   std::optional<bool> smooth;          ///< its normals; nothing: smooth where the mesh has normals
+  double crease_deg = 180;             ///< as a preset's object has it
   int priority = 0;                    ///< of a dielectric, as a preset's object has it
   bool inside_out = false;             ///< what shines is its inside; what is in a dielectric is around it
   std::optional<DescribedColour> glow; ///< radiance of its outside
   std::optional<double> glow_power;    ///< of all of it, in the file's unit, times the luminance of its glow
   bool glows_on_both_sides = false;    ///< only where it is flat
+  std::optional<std::string> back;     ///< the material of its back, where that has another; only where it is flat
 };
 
 /// A dielectric of the file.
@@ -71,12 +74,17 @@ struct DescribedCamera {
   std::array<int, 2> resolution{768, 576};
 };
 
+/// Leaves of the picture what is so far from its upper left corner and of this size, both in pixels.
+void crop(DescribedCamera& camera, const glm::dvec2& corner, const glm::dvec2& size);
+
 struct DescribedSurroundings {
   Location where;
   std::filesystem::path file; ///< latitude and longitude; empty: one colour
+  bool is_equal_area = false; ///< PBRT 4's square (Clarberg 2008), its z axis towards the middle
   glm::dvec3 colour{1};
   double scale = 1;
-  glm::dvec3 centre{0, 0, 1};                  ///< where the map's centre column looks, y up
+  glm::dmat3 to_world{1}; ///< from the map's directions: +y is its top, +z in its centre column and
+                          ///< +x to the left of that; of a square its own
   std::optional<preset::Environment> sky = {}; ///< a clear sky in place of a map, with its sun_direction
 };
 
@@ -85,6 +93,7 @@ inline constexpr std::size_t max_shapes = 1000000; ///< of a file: instances of 
 struct Description {
   std::filesystem::path source;
   double unit = 1; ///< luminance Y (W m^-2 sr^-1, no factor 683) of a radiance of 1 in the file, which is white there
+  double exposure = 1;     ///< a picture's values over the radiance, both as the file has them
   bool fits_white = false; ///< the file has no radiance that is white: one is made of its lights
   std::optional<DescribedCamera> camera;
   std::map<std::string, scene::Mesh> meshes;               ///< by the names of their files
@@ -97,6 +106,7 @@ struct Description {
   std::vector<DescribedLight> lights;
   std::vector<preset::Light> lamps; ///< lights that are in watts already
   std::optional<DescribedSurroundings> surroundings;
+  glm::dvec3 up{0, 1, 0}; ///< of a sky, a unit vector
   std::vector<std::string> notes;
   std::set<std::string> noted;
 
@@ -109,6 +119,8 @@ struct Description {
   std::string mesh_file(const std::filesystem::path& file, const Location& where);
   /// The name of a new file of the import, made of this one.
   std::string own_file(const std::string& name, const char* ending);
+  /// Adds a file of the import and returns its name.
+  std::string own_bytes(const std::string& name, const char* ending, const ByteStore& bytes);
   /// Adds a mesh and returns its key.
   std::string own_mesh(const std::string& name, scene::Mesh mesh);
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/import/emitter.h"
 
+#include "scene/ray.h"
+
+#include <numbers>
 #include <vector>
 
 namespace nephroid::formats {
@@ -21,6 +24,15 @@ Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world) {
   e.flat = glm::length(e.normal) > (1 - 1e-6) * e.area;
   if (e.flat) e.normal = glm::normalize(e.normal);
   return e;
+}
+
+double ellipsoid_area(const glm::dmat3& to_world) {
+  constexpr int count = 4096;
+  const glm::dmat3 cofactor(glm::cross(to_world[1], to_world[2]), glm::cross(to_world[2], to_world[0]),
+                            glm::cross(to_world[0], to_world[1]));
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += glm::length(cofactor * scene::even_direction(i, count));
+  return 4 * std::numbers::pi * sum / count;
 }
 
 } // namespace nephroid::formats

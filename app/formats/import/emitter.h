@@ -17,4 +17,7 @@ struct Emitter {
 
 Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world);
 
+/// Of what the unit sphere becomes. A place u of it has the area |cofactor u| a steradian.
+double ellipsoid_area(const glm::dmat3& to_world);
+
 } // namespace nephroid::formats

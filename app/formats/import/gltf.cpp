@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glTF 2.0 scene: in metres, +y up, cameras and lights look along -z, as here.
+#include "base/files.h"
 #include "formats/import/description.h"
 #include "formats/import/gltf_scene.h"
 #include "formats/import/textures.h"
+#include "image/image.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <system_error>
+#include <tuple>
 #include <utility>
+
+#include <unistd.h>
 
 namespace nephroid::formats {
 namespace {
@@ -39,18 +46,21 @@ public:
     d_.source = file.file;
     d_.fits_white = true;
     read_animations();
-    for (const GltfNode& node : nodes_of(file)) {
+    const std::vector<GltfNode> nodes = nodes_of(file);
+    for (const GltfNode& node : nodes) worlds_[node.index] = node.to_world;
+    for (const GltfNode& node : nodes) {
       if (node.value.has("camera")) add_camera(node);
       if (!node.is_visible) d_.note("what the file hides (KHR_node_visibility) is left out");
       if (!node.is_visible) continue;
       if (node.value.has("mesh")) add_mesh(node);
-      if (node.value.has("skin")) d_.note("skins are left out: meshes are as they rest");
       if (node.value.object("extensions").has("KHR_lights_punctual")) add_light(node);
     }
     note_extensions();
   }
 
 private:
+  static constexpr std::size_t none = ~std::size_t{0};
+
   /// How the weights of a node's morph targets change: the numbers of all targets at each time.
   struct WeightKeys {
     std::vector<double> seconds, weights;
@@ -122,13 +132,108 @@ private:
     return states;
   }
 
+  /// What each joint of a node's skin does to a mesh, into the world; empty without a skin.
+  std::vector<glm::dmat4> joints_of(const GltfNode& node) const {
+    if (!node.value.has("skin")) return {};
+    const GltfValue skin = node.value.item("skin", root_, "skins");
+    const std::vector<std::size_t> joints = skin.indices("joints", root_, "nodes");
+    std::vector<double> inverse;
+    if (skin.has("inverseBindMatrices")) inverse = meshes_.numbers(skin, "inverseBindMatrices", 16);
+    if (!inverse.empty() && inverse.size() < 16 * joints.size())
+      throw bad_input(skin.where(), fmt::format("has {} matrices of {} joints", inverse.size() / 16, joints.size()));
+    std::vector<glm::dmat4> moves;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const auto world = worlds_.find(joints[i]);
+      if (world == worlds_.end())
+        throw bad_input(skin.where() / "joints" / i, fmt::format("node {} is not in the scene", joints[i]));
+      moves.push_back(inverse.empty() ? world->second : world->second * glm::make_mat4(&inverse[16 * i]));
+    }
+    return moves;
+  }
+
+  /// What is left of the light behind: from the least to the most of a surface.
+  struct Alpha {
+    double least = 1, most = 1;
+    void times(double low, double high) { least *= low, most *= high; }
+  };
+
+  /// Of a file's picture.
+  Alpha alpha_of_picture(std::size_t image) {
+    const auto [found, is_new] = alphas_.try_emplace(image);
+    if (!is_new) return found->second;
+    GltfMeshes::Picture picture = meshes_.picture(root_.item("images", image));
+    const bool is_own = picture.file.empty();
+    if (is_own ? !picture.bytes.starts_with("\x89PNG") : !is_there(picture.file)) return {}; // JPEG has no alpha
+    if (is_own) {
+      picture.file = std::filesystem::temp_directory_path() / fmt::format("nephroid-{}-{}.png", getpid(), image);
+      write_file_whole(picture.file, picture.bytes);
+    }
+    image::Image read;
+    try {
+      read = image::read_image(picture.file);
+    } catch (const Error&) { // who takes its colours says so
+    }
+    std::error_code ignored;
+    if (is_own) std::filesystem::remove(picture.file, ignored);
+    const auto channel = static_cast<std::size_t>(std::ranges::find(read.channels, "A") - read.channels.begin());
+    if (read.data.empty() || channel == read.channels.size()) return {};
+    float low = 1, high = 0;
+    for (std::size_t i = channel; i < read.data.size(); i += read.channels.size()) {
+      low = std::min(low, read.data[i]);
+      high = std::max(high, read.data[i]);
+    }
+    return found->second = {low, high};
+  }
+
+  /// Whether some of a primitive is there, by its alpha.
+  bool is_there_by_alpha(const GltfValue& primitive) {
+    if (!primitive.has("material")) return true;
+    const std::size_t index = primitive.index("material", root_, "materials");
+    const GltfValue material = root_.item("materials", index);
+    const std::string mode = material.text("alphaMode");
+    if (mode != "MASK" && mode != "BLEND") return true;
+    const GltfValue pbr = material.object("pbrMetallicRoughness"),
+                    older = material.extension("KHR_materials_pbrSpecularGlossiness"); // takes the other's place
+    const bool is_older = material.object("extensions").has("KHR_materials_pbrSpecularGlossiness");
+    const double factor = std::clamp((is_older ? older.numbers<4>("diffuseFactor", {1, 1, 1, 1})
+                                               : pbr.numbers<4>("baseColorFactor", {1, 1, 1, 1}))[3],
+                                     0.0, 1.0);
+    Alpha alpha;
+    const GltfValue base = is_older ? older.object("diffuseTexture") : pbr.object("baseColorTexture");
+    if (base.has("index"))
+      if (const GltfValue texture = base.item("index", root_, "textures"); texture.has("source")) {
+        const Alpha picture = alpha_of_picture(texture.index("source", root_, "images"));
+        alpha.times(picture.least, picture.most);
+      }
+    const GltfValue attributes = primitive.object("attributes");
+    if (attributes.has("COLOR_0") && attributes.item("COLOR_0", root_, "accessors").text("type") == "VEC4") {
+      const std::vector<double> colours = meshes_.numbers(attributes, "COLOR_0", 4);
+      double low = 1, high = 0;
+      for (std::size_t i = 3; i < colours.size(); i += 4) {
+        low = std::min(low, std::clamp(colours[i], 0.0, 1.0));
+        high = std::max(high, std::clamp(colours[i], 0.0, 1.0));
+      }
+      alpha.times(low, high);
+    }
+    alpha.times(factor, factor);
+    const double cutoff = material.number("alphaCutoff", 0.5);
+    if (mode == "MASK" ? alpha.most < cutoff : !(alpha.most > 0)) return false;
+    const std::string name = name_of(material.text("name"), fmt::format("material {}", index));
+    if (mode == "MASK" && alpha.least < cutoff)
+      d_.note(fmt::format("material '{}' has holes by its alpha in the file and is whole here", name));
+    if (mode == "BLEND" && alpha.least < factor)
+      d_.note(fmt::format("material '{}' is opaque here, also where its picture or corners are not", name));
+    return true;
+  }
+
   void add_mesh(const GltfNode& node) {
     const std::size_t index = node.value.index("mesh", root_, "meshes");
     const GltfValue mesh = root_.item("meshes", index);
     const std::string name =
         name_of(node.value.text("name"), name_of(mesh.text("name"), fmt::format("mesh {}", index)));
     const std::vector<GltfValue> primitives = mesh.list("primitives");
-    const std::vector<glm::dmat4> places = meshes_.instances(node.value);
+    const std::vector<glm::dmat4> places = meshes_.instances(node.value), joints = joints_of(node);
+    const std::size_t skin = joints.empty() ? none : node.value.index("skin", root_, "skins");
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       if (primitives[p].count("mode", 4) < 4) {
         d_.note(fmt::format("points and lines of '{}' are left out", name));
@@ -136,8 +241,13 @@ private:
       }
       if (primitives[p].object("attributes").has("COLOR_0"))
         d_.note(fmt::format("the colours of the corners of '{}' are left out", name));
-      const auto [keys, is_new] = keys_.try_emplace({index, p});
-      if (is_new) keys->second = own_meshes(primitives[p], name);
+      // What its joints move stands where they do, wherever its node is.
+      const bool is_skinned = !joints.empty() && primitives[p].object("attributes").has("JOINTS_0");
+      if (!joints.empty() && !is_skinned)
+        d_.note(fmt::format("a part of '{}' has no joints: its skin does not move it", name));
+      const auto [keys, is_new] = keys_.try_emplace({index, p, is_skinned ? skin : none});
+      if (is_new && is_there_by_alpha(primitives[p]))
+        keys->second = own_meshes(primitives[p], name, is_skinned ? joints : std::vector<glm::dmat4>());
       if (keys->second.empty()) continue;
       DescribedShape shape;
       shape.where = primitives[p].where();
@@ -153,26 +263,35 @@ private:
         shape.glows_on_both_sides = surface.truth("doubleSided", false);
       }
       for (const glm::dmat4& instance : places) {
-        shape.to_world = node.to_world * instance;
+        shape.to_world = is_skinned ? instance : node.to_world * instance;
         d_.shapes.push_back(shape);
       }
     }
   }
 
-  /// The mesh's key, then those of its morph targets; empty where nothing of it can be seen.
-  std::vector<std::string> own_meshes(const GltfValue& primitive, const std::string& name) {
+  /// The mesh's key, then those of its morph targets; empty where nothing of it can be seen. joints: of its skin.
+  std::vector<std::string> own_meshes(const GltfValue& primitive, const std::string& name,
+                                      const std::vector<glm::dmat4>& joints) {
     if (!primitive.object("attributes").has("POSITION")) {
       d_.note(fmt::format("a part of '{}' has no positions and is left out", name));
       return {};
     }
     scene::Mesh mesh = meshes_.read(primitive);
+    std::vector<scene::Mesh> targets;
+    for (const GltfValue& target : primitive.list("targets"))
+      targets.push_back(meshes_.target(mesh, primitive, target));
+    if (!joints.empty()) {
+      if (const std::size_t loose = meshes_.move_by_joints(mesh, primitive, joints); loose > 0)
+        d_.note(
+            fmt::format("{} of the skin of '{}': vertices without weights are moved by its first joint", loose, name));
+      for (scene::Mesh& target : targets) meshes_.move_by_joints(target, primitive, joints);
+    }
     if (!scene::has_area(mesh)) {
       d_.note(fmt::format("a part of '{}' has no triangle with an area and is left out", name));
       return {};
     }
     std::vector<std::string> keys{{}};
-    for (const GltfValue& target : primitive.list("targets"))
-      keys.push_back(d_.own_mesh(name + " target", meshes_.target(mesh, primitive, target)));
+    for (scene::Mesh& target : targets) keys.push_back(d_.own_mesh(name + " target", std::move(target)));
     turn_upside_down(mesh);
     keys[0] = d_.own_mesh(name, std::move(mesh));
     return keys;
@@ -195,7 +314,6 @@ private:
   }
 
   std::string material(const GltfValue& primitive) {
-    constexpr std::size_t none = ~std::size_t{0};
     const std::size_t index = primitive.has("material") ? primitive.index("material", root_, "materials") : none;
     const auto [found, is_new] = material_names_.try_emplace(index);
     std::string& name = found->second;
@@ -302,9 +420,12 @@ private:
   GltfValue root_;
   GltfMeshes meshes_;
   Description& d_;
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> keys_; ///< of meshes, by mesh and primitive
-  std::map<std::size_t, WeightKeys> weights_;                                    ///< by the node
-  std::string animated_by_;                                                      ///< the animation that they are of
+  std::map<std::size_t, glm::dmat4> worlds_; ///< from each node of the scene
+  std::map<std::size_t, Alpha> alphas_;      ///< of pictures
+  /// Of meshes, by mesh, primitive and skin.
+  std::map<std::tuple<std::size_t, std::size_t, std::size_t>, std::vector<std::string>> keys_;
+  std::map<std::size_t, WeightKeys> weights_; ///< by the node
+  std::string animated_by_;                   ///< the animation that they are of
   std::map<std::size_t, std::string> material_names_;
   TakenNames taken_materials_;
 };

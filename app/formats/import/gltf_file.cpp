@@ -2,6 +2,8 @@
 #include "formats/import/gltf_file.h"
 
 #include "base/files.h"
+#include "base/foreign_kind.h"
+#include "base/lower_case.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@ namespace nephroid::formats {
 namespace {
 
 constexpr const char* expected = "a glTF 2.0 file, .gltf or .glb";
+constexpr const char* scenes = "expected glTF (.gltf, .glb), Mitsuba (.xml) or PBRT (.pbrt)";
 constexpr int max_depth = 64;
 
 /// Without these the file's triangles cannot be read, where it requires them.
@@ -32,6 +35,17 @@ int depth_of(std::string_view text) {
     if (c == ']' || c == '}') --depth;
   }
   return deepest;
+}
+
+/// Of a file that is not JSON.
+Error foreign(const std::filesystem::path& file, std::string_view text) {
+  if (const ForeignKind* kind = foreign_kind(file, text))
+    return bad_input(file.string(), fmt::format("is {}, which is not read", kind->what), scenes,
+                     std::string(kind->remedy));
+  constexpr std::array meshes{".obj", ".ply", ".stl", ".off", ".3ds", ".3mf"};
+  if (std::ranges::count(meshes, lower_case(file.extension().string())) > 0)
+    return bad_input(file.string(), "is a mesh and no scene", scenes, "name it as an object's \"mesh\" in a preset");
+  return bad_input(file.string(), "is no scene that is read here", scenes);
 }
 
 GltfJson parse(const std::string& text, const std::string& name) {
@@ -90,7 +104,9 @@ GltfFile read_gltf(const std::filesystem::path& file) {
     std::string json;
     split_glb(text, name, json, gltf.bin);
     text = std::move(json);
-  }
+  } else if (const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
+             first == text.npos || (text[first] != '{' && text[first] != '[')) // which is JSON's
+    throw foreign(file, text);
   gltf.json = parse(text, name);
   const GltfValue root(gltf.json, gltf.where());
   if (!gltf.json.is_object() || !root.has("asset")) throw bad_input(name, "is no glTF: it has no \"asset\"", expected);

@@ -21,7 +21,8 @@ struct GltfFile {
   Location where() const { return {file.string(), std::string()}; }
 };
 
-/// Throws bad_input where it is no glTF 2.0, is cut, or has its triangles compressed.
+/// Throws bad_input where it is no glTF 2.0, with what it is as far as that can be told, is cut, or has its triangles
+/// compressed.
 GltfFile read_gltf(const std::filesystem::path& file);
 
 /// A value of the file, with its place.

@@ -74,7 +74,10 @@ const ComponentType& component_type(const GltfValue& value) {
   return component_types[type];
 }
 
-constexpr std::array<const char*, 5> type_of_width{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+const char* type_of_width(std::size_t width) {
+  constexpr std::array<const char*, 5> types{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+  return width == 16 ? "MAT4" : types.at(width);
+}
 
 /// Each corner of a strip or a fan has a triangle with the two before it, or with the one before it and the first.
 std::vector<glm::uvec3> triangles_of(const std::vector<std::uint32_t>& corners, std::uint64_t mode) {
@@ -155,9 +158,8 @@ GltfMeshes::Items GltfMeshes::items(const GltfValue& value, std::uint64_t count,
 std::vector<double> GltfMeshes::numbers(const GltfValue& from, const char* key, std::size_t width) const {
   const GltfValue accessor = from.item(key, root_, "accessors");
   const std::string type = accessor.text("type");
-  if (type != type_of_width.at(width))
-    throw bad_input(accessor.where() / "type", "is \"" + type + "\"",
-                    std::string("expected ") + type_of_width.at(width));
+  if (type != type_of_width(width))
+    throw bad_input(accessor.where() / "type", "is \"" + type + "\"", std::string("expected ") + type_of_width(width));
   const ComponentType& component = component_type(accessor);
   const std::uint64_t count = accessor.count("count", 0);
   if (count == 0) throw bad_input(accessor.where() / "count", "is 0", "expected at least one item");
@@ -263,6 +265,40 @@ scene::Mesh GltfMeshes::target(const scene::Mesh& own, const GltfValue& primitiv
   for (glm::vec3& normal : mesh.normals)
     if (const float length = glm::length(normal); length > 0) normal /= length;
   return mesh;
+}
+
+std::size_t GltfMeshes::move_by_joints(scene::Mesh& mesh, const GltfValue& primitive,
+                                       const std::vector<glm::dmat4>& joints) const {
+  const GltfValue attributes = primitive.object("attributes");
+  std::vector<glm::dmat4> moves(mesh.positions.size(), glm::dmat4(0));
+  std::vector<double> sums(moves.size());
+  for (int set = 0; attributes.has(fmt::format("JOINTS_{}", set).c_str()); ++set) { // four joints each
+    const std::vector<double> which = numbers(attributes, fmt::format("JOINTS_{}", set).c_str(), 4),
+                              weights = numbers(attributes, fmt::format("WEIGHTS_{}", set).c_str(), 4);
+    if (which.size() != 4 * moves.size() || weights.size() != which.size())
+      throw bad_input(primitive.where(), fmt::format("has {} joints and {} weights of {} vertices", which.size() / 4,
+                                                     weights.size() / 4, moves.size()));
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      if (!(weights[i] > 0)) continue;
+      if (!(which[i] >= 0 && which[i] < static_cast<double>(joints.size())))
+        throw bad_input(primitive.where(), fmt::format("has joint {} of {}", which[i], joints.size()));
+      moves[i / 4] += weights[i] * joints[static_cast<std::size_t>(which[i])];
+      sums[i / 4] += weights[i];
+    }
+  }
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const glm::dmat4 move = sums[i] > 0 ? moves[i] / sums[i] : joints[0];
+    mesh.positions[i] = glm::vec3(move * glm::dvec4(mesh.positions[i], 1));
+    if (!std::isfinite(glm::dot(mesh.positions[i], mesh.positions[i])))
+      throw bad_input(primitive.where(), fmt::format("its joints leave vertex {} nowhere", i),
+                      "expected weights that add up to 1");
+    if (mesh.normals.empty()) continue;
+    const glm::dvec3 x(move[0]), y(move[1]), z(move[2]), n(mesh.normals[i]);
+    const glm::dvec3 normal = n.x * glm::cross(y, z) + n.y * glm::cross(z, x) + n.z * glm::cross(x, y);
+    const double length = glm::length(normal);
+    mesh.normals[i] = length > 0 && std::isfinite(length) ? glm::vec3(normal / length) : glm::vec3(0);
+  }
+  return static_cast<std::size_t>(std::ranges::count(sums, 0.0));
 }
 
 std::vector<glm::dmat4> GltfMeshes::instances(const GltfValue& node) const {

@@ -299,14 +299,12 @@ LightColour light_colour(const std::array<double, 3>& rgb) {
     light.watts_per_lumen = luminance / lumens_per_watt(optics::illuminant("D65"));
     return light;
   }
-  optics::Spectrum spectrum{};
-  for (std::size_t i = 0; i < spectrum.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) spectrum[i] += colour[c] / largest * optics::primary_spectra()[c][i];
+  for (double& c : colour) c /= largest;
+  const optics::Spectrum spectrum = optics::light_of_colour(colour);
   light.spectrum.type = preset::LightSpectrum::Type::table;
-  for (int nm = optics::first_nm; nm <= optics::last_nm;
-       nm += 10) // power cannot be negative, so saturated colours become a little paler
+  for (int nm = optics::first_nm; nm <= optics::last_nm; nm += 5)
     light.spectrum.table.push_back(
-        {static_cast<double>(nm), std::max(0.0, spectrum[static_cast<std::size_t>(nm - optics::first_nm)])});
+        {static_cast<double>(nm), spectrum[static_cast<std::size_t>(nm - optics::first_nm)]});
   light.watts_per_lumen = luminance / lumens_per_watt(scatter::make_light_spectrum(light.spectrum, "spectrum"));
   return light;
 }
@@ -329,17 +327,18 @@ preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const
                  inner = spot.number("innerConeAngle", 0);
     light.type = preset::Light::Type::spot;
     light.half_angle_deg = outer * 180 / pi;
-    light.power_w =
-        2 * pi * (1 - std::cos(outer)) * intensity * colour.watts_per_lumen; // candela over the cone's solid angle
+    // From the inner cone's edge to the outer one's the intensity falls with the square of a cosine's way to the edge:
+    // the integral of that is a third.
+    const double at_edge = std::cos(outer), inside = 1 - std::cos(std::clamp(inner, 0.0, outer));
+    light.power_w = 2 * pi * (inside + (1 - inside - at_edge) / 3) * intensity * colour.watts_per_lumen;
     if (inner < 0.99 * outer)
-      notes.push_back(fmt::format("light '{}' fades towards the edge of its cone in the file and does not here", name));
+      notes.push_back(
+          fmt::format("light '{}' fades towards the edge of its cone in the file; here the same light is even", name));
   } else if (type == "directional") {
     light.type = preset::Light::Type::directional;
     light.irradiance_w_m2 = intensity * colour.watts_per_lumen;
   } else
     throw bad_input(value.where() / "type", "is \"" + type + "\"", "expected point, spot or directional");
-  light.power_w = std::min(light.power_w, 1e9);
-  light.irradiance_w_m2 = std::min(light.irradiance_w_m2, 1e9);
   if (value.has("range"))
     notes.push_back(fmt::format("light '{}' ends at a range in the file and does not here", name));
   return light;

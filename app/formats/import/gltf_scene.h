@@ -84,8 +84,14 @@ public:
   /// The same mesh at one of the primitive's "targets". Throws as read().
   scene::Mesh target(const scene::Mesh& own, const GltfValue& primitive, const GltfValue& target) const;
 
-  /// Of the accessor whose index is from[key]; width: how many an item has to have. Throws bad_input at what is
-  /// missing.
+  /// The mesh as the primitive's joints and weights have it. joints: what each does to the mesh, into the world. Throws
+  /// bad_input at the primitive where they do not fit together. Returns how many vertices have no weights: the first
+  /// joint moves them.
+  std::size_t move_by_joints(scene::Mesh& mesh, const GltfValue& primitive,
+                             const std::vector<glm::dmat4>& joints) const;
+
+  /// Of the accessor whose index is from[key]; width: how many an item has to have, 16 of a matrix. Throws bad_input at
+  /// what is missing.
   std::vector<double> numbers(const GltfValue& from, const char* key, std::size_t width) const;
 
   /// The file's own bytes of a picture, in a buffer or in its URI; else where the file is that it names.

@@ -8,8 +8,9 @@
 #include "formats/import/dielectrics.h"
 #include "formats/import/emitter.h"
 #include "formats/import/gltf_scene.h"
+#include "formats/import/surroundings.h"
+#include "preset/field.h"
 #include "preset/read.h"
-#include "scene/ray.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -27,16 +28,6 @@ namespace {
 
 using std::numbers::pi;
 
-/// Of what the unit sphere becomes. A place u of it has the area |cofactor u| a steradian.
-double ellipsoid_area(const glm::dmat3& to_world) {
-  constexpr int count = 4096;
-  const glm::dmat3 cofactor(glm::cross(to_world[1], to_world[2]), glm::cross(to_world[2], to_world[0]),
-                            glm::cross(to_world[0], to_world[1]));
-  double sum = 0;
-  for (int i = 0; i < count; ++i) sum += glm::length(cofactor * scene::even_direction(i, count));
-  return 4 * pi * sum / count;
-}
-
 constexpr std::size_t most_objects = 10000, most_lights = 1000; ///< of a preset
 
 /// Those that a material has.
@@ -47,15 +38,19 @@ std::vector<preset::Texture*> textures_of(preset::Material& material) {
   return textures;
 }
 
-double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
-
 class PresetBuilder {
 public:
   /// folder: the name of the meshes' folder, beside the preset.
   PresetBuilder(Description& from, std::string folder) : from_(from), folder_(std::move(folder)) {
     // A picture is right as our camera sees it where x, y and -z of the camera are right-handed. Else the whole world
     // is mirrored.
-    if (from_.camera && glm::determinant(glm::dmat3(from_.camera->to_world)) > 0) mirror_[0][0] = -1;
+    if (from_.camera && glm::determinant(glm::dmat3(from_.camera->to_world)) > 0) to_preset_[0][0] = -1;
+    // A preset's sky is up along +y.
+    const glm::dvec3 up = glm::dmat3(to_preset_) * from_.up, y(0, 1, 0), axis = glm::cross(up, y);
+    if (glm::length(axis) > 1e-9)
+      to_preset_ = glm::rotate(glm::dmat4(1), std::acos(std::clamp(up.y, -1.0, 1.0)), axis) * to_preset_;
+    else if (up.y < 0)
+      to_preset_ = glm::rotate(glm::dmat4(1), pi, glm::dvec3(1, 0, 0)) * to_preset_;
   }
 
   preset::Preset make(const std::string& name) {
@@ -73,6 +68,7 @@ public:
                       fmt::format("expected at most {}", most_objects),
                       "join those of one material in the program that made them");
     for (const DescribedShape& shape : from_.shapes) add(shape);
+    for (const DescribedShape& shape : from_.shapes) cover_back(shape);
     if (made_.scene.objects.empty())
       throw bad_input(from_.source.string(), "has no triangles in its scene, and no sphere",
                       "expected a surface that can be taken over");
@@ -85,6 +81,7 @@ public:
       look_at_all();
     if (made_.scene.lights.empty() && !made_.scene.environment) light_all();
     expose();
+    dim();
     for (std::string& line : made_.not_imported = from_.notes)
       std::ranges::replace_if(
           line, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' '); // of names in the file
@@ -132,7 +129,7 @@ private:
   double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }
 
   void add(const DescribedShape& shape) {
-    glm::dmat4 to_world = mirror_ * shape.to_world;
+    glm::dmat4 to_world = to_preset_ * shape.to_world;
     if (shape.mesh.empty()) to_world = to_world * glm::dmat4(glm::dmat3(shape.radius));
     if (shape.glow) return glow(shape, to_world);
     preset::Object object;
@@ -161,7 +158,9 @@ private:
                           "move the scene to its origin in the program that made it");
       }
       const scene::Mesh& mesh = from_.meshes.at(key);
-      if (shape.smooth.value_or(!mesh.normals.empty())) object.normals = preset::Object::Normals::smooth;
+      using enum preset::Object::Normals;
+      object.normals = shape.smooth.value_or(!from_.meshes.at(shape.mesh).normals.empty()) ? smooth : faceted;
+      object.crease_deg = shape.crease_deg;
       for (const glm::vec3& p : mesh.positions) see(to_world * glm::dvec4(glm::dvec3(p), 1));
       object.mesh = folder_ + "/" + key;
       used_.insert(key);
@@ -205,7 +204,7 @@ private:
   void glow(const DescribedShape& shape, const glm::dmat4& to_world) {
     const LightColour colour = light_colour(*shape.glow);
     const auto power_of = [&](double area) { // of a radiance in W m^-2 sr^-1
-      return clamped_power(watts(colour) * shape.glow_power.value_or(pi * area));
+      return watts(colour) * shape.glow_power.value_or(pi * area);
     };
     preset::Light light;
     light.spectrum = colour.spectrum;
@@ -227,11 +226,33 @@ private:
     if (both && shape.glow_power) light.power_w /= 2; // that of both
     keep_glowing(shape, light);
     if (!both) return;
-    DescribedShape back = shape;
-    const glm::dvec3 behind = (shape.inside_out ? 1e-4 : -1e-4) * std::sqrt(e.area) * e.normal;
-    back.to_world = mirror_ * glm::translate(glm::dmat4(1), behind) * to_world;
+    DescribedShape back = behind(shape, e, 1e-4 * std::sqrt(e.area));
     back.inside_out = !shape.inside_out;
     keep_glowing(std::move(back), light);
+  }
+
+  /// The same shape behind a flat one, by so much.
+  DescribedShape behind(const DescribedShape& shape, const Emitter& flat, double distance) const {
+    DescribedShape back = shape;
+    const glm::dvec3 way = (shape.inside_out ? distance : -distance) * flat.normal;
+    back.to_world = glm::translate(glm::dmat4(1), glm::inverse(glm::dmat3(to_preset_)) * way) * shape.to_world;
+    return back;
+  }
+
+  /// A surface with the material of its back behind what is flat. Nobody sees the back of what is closed.
+  void cover_back(const DescribedShape& shape) {
+    if (!shape.back || shape.mesh.empty()) return;
+    const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_preset_ * shape.to_world);
+    if (!e.flat && glm::length(e.normal) > 1e-3 * e.area)
+      from_.note(shape.where, "a curved surface has one material on both its sides here");
+    if (!e.flat) return;
+    if (made_.scene.objects.size() >= most_objects)
+      return from_.note(fmt::format("backs of surfaces beyond {} objects are as their fronts", most_objects));
+    DescribedShape back = behind(shape, e, 4e-6 * size()); // a thin wall may be there
+    back.material = *shape.back;
+    back.name = shape.name + " back";
+    back.glow.reset();
+    add(back);
   }
 
   bool has_material(const DescribedShape& shape) const { return made_.scene.materials.contains(shape.material); }
@@ -273,15 +294,14 @@ private:
     preset::Light made;
     made.type = light.type;
     made.spectrum = colour.spectrum;
-    made.position = scene::to_vec3(glm::dvec3(mirror_ * glm::dvec4(light.position, 1)));
-    const glm::dvec3 way = glm::dmat3(mirror_) * light.direction;
+    made.position = scene::to_vec3(glm::dvec3(to_preset_ * glm::dvec4(light.position, 1)));
+    const glm::dvec3 way = glm::dmat3(to_preset_) * light.direction;
     if (!(glm::length(way) > 0)) throw bad_input(light.where, "the light has no direction");
     made.direction = scene::to_vec3(glm::normalize(way));
     made.half_angle_deg = std::clamp(light.half_angle_deg, 0.01, 90.0);
     const bool spot = light.type == preset::Light::Type::spot;
-    made.power_w =
-        clamped_power(watts(colour) * (spot ? 2 * pi * (1 - std::cos(glm::radians(made.half_angle_deg))) : 4 * pi));
-    made.irradiance_w_m2 = clamped_power(watts(colour));
+    made.power_w = watts(colour) * (spot ? 2 * pi * (1 - std::cos(glm::radians(made.half_angle_deg))) : 4 * pi);
+    made.irradiance_w_m2 = watts(colour);
     if (!(watts(colour) > 0)) return from_.note(light.where, "a light that is black is left out");
     made_.scene.lights.push_back(made);
   }
@@ -292,7 +312,7 @@ private:
     e.radiance = s.scale * from_.unit;
     if (s.sky) {
       e = *s.sky;
-      e.sun_direction = scene::to_vec3(glm::dmat3(mirror_) * scene::to_dvec3(*e.sun_direction));
+      e.sun_direction = scene::to_vec3(glm::dmat3(to_preset_) * scene::to_dvec3(*e.sun_direction));
       return;
     }
     if (s.file.empty()) {
@@ -300,17 +320,22 @@ private:
       e.colour = scene::to_vec3(s.colour);
       return;
     }
-    e.file = fs::absolute(s.file).lexically_normal().string();
-    // Ours looks along -z, and a turn is counterclockwise seen from above: (-sin a, 0, -cos a).
-    const glm::dvec3 centre = glm::dmat3(mirror_) * s.centre;
-    e.rotate_deg = glm::degrees(std::atan2(-centre.x, -centre.z));
-    if (mirror_[0][0] < 0)
-      from_.note(s.where, "the surroundings are mirrored with the scene in the file and are not here");
+    const glm::dmat3 to_preset = glm::dmat3(to_preset_) * s.to_world;
+    const glm::dvec3 top = glm::normalize(to_preset[1]), centre = to_preset[2];
+    if (!s.is_equal_area && top.y > 1 - 1e-9 && glm::determinant(to_preset) > 0) {
+      e.file = fs::absolute(s.file).lexically_normal().string();
+      // Ours looks along -z, and a turn is counterclockwise seen from above: (-sin a, 0, -cos a).
+      e.rotate_deg = glm::degrees(std::atan2(-centre.x, -centre.z));
+      return;
+    }
+    ByteStore exr;
+    image::write_exr(exr, map_in_preset(s, to_preset));
+    e.file = folder_ + "/" + from_.own_bytes("surroundings", ".exr", exr);
   }
 
   void aim(const DescribedCamera& c) {
     preset::Camera& made = made_.scene.camera;
-    const glm::dmat4 to_world = mirror_ * c.to_world;
+    const glm::dmat4 to_world = to_preset_ * c.to_world;
     const glm::dvec3 position(to_world[3]), forward(to_world[2]), up(to_world[1]);
     if (!(glm::length(forward) > 0) || !(glm::length(up) > 0)) throw bad_input(c.where, "the camera has no direction");
     made.position = scene::to_vec3(position);
@@ -345,7 +370,7 @@ private:
     from_.note("the file has no lights that can be taken over: a lamp above everything takes their place");
     preset::Light lamp;
     lamp.position = scene::to_vec3(middle() + size() * glm::dvec3(-0.5, 1, 0.4));
-    lamp.power_w = clamped_power(10 * size() * size() * from_.unit);
+    lamp.power_w = 10 * size() * size() * from_.unit;
     made_.scene.lights.push_back(lamp);
   }
 
@@ -358,13 +383,31 @@ private:
       for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, middle());
       white = irradiance > 0 ? irradiance / pi : 1;
     }
-    made_.white = std::clamp(white, 1e-12, 1e12);
+    made_.white = white / from_.exposure;
+  }
+
+  /// A preset's lamp has at most so much light. Where one has more, as in a scene of millimetres that is read as one of
+  /// metres, all light and what is white become less by the same factor: the picture stays.
+  void dim() {
+    double most = preset::power_bounds.high;
+    for (const preset::Light& light : made_.scene.lights) most = std::max({most, light.power_w, light.irradiance_w_m2});
+    const double part = preset::power_bounds.high / most;
+    if (part < 1)
+      from_.note(fmt::format("a lamp has more than {:g} W: all light is {:.3g} times that of the file, and so is what "
+                             "is white",
+                             preset::power_bounds.high, part));
+    for (preset::Light& light : made_.scene.lights) light.power_w *= part, light.irradiance_w_m2 *= part;
+    if (made_.scene.environment) {
+      made_.scene.environment->radiance *= part;
+      made_.scene.environment->sun_scale *= part;
+    }
+    made_.white = std::clamp(*made_.white * part, 1e-12, 1e12);
   }
 
   Description& from_;
   std::string folder_;
   preset::Preset made_;
-  glm::dmat4 mirror_{1};
+  glm::dmat4 to_preset_{1}; ///< from the file's world, mirrored or turned
   TakenNames names_;
   std::string black_;                        ///< material of what shines; empty: none yet
   std::map<std::string, std::string> plain_; ///< materials without a texture, by those with it

@@ -40,12 +40,24 @@ public:
         add_shape(node, glm::dmat4(1), 0);
       else if (kind == "emitter")
         add_light(node);
+      else if (kind == "integrator")
+        note_integrator(node);
     }
   }
 
 private:
   DescribedColour colour(xml_node parent, const std::string& name, double standard) {
     return mitsuba_colour(scene_, parent, name, standard);
+  }
+
+  /// What of it changes the picture.
+  void note_integrator(xml_node node) {
+    constexpr double few = 8; // surfaces, after which more would be seen
+    if (file_.flag(node, "hide_emitters"))
+      d_.note(file_.at(node), "hide_emitters is left out: lamps and surroundings are seen");
+    if (const double most = file_.number(node, "max_depth", -1); most >= 0 && most < few)
+      d_.note(file_.at(node),
+              fmt::format("paths have max_depth {:g} in the file, and are followed to their end here", most));
   }
 
   void add_camera(xml_node node) {
@@ -60,15 +72,13 @@ private:
     const double w = std::clamp(file_.number(film, "width", 768), 1.0, 16384.0),
                  h = std::clamp(file_.number(film, "height", 576), 1.0, 16384.0);
     camera.resolution = {static_cast<int>(w), static_cast<int>(h)};
-    if (file_.child(film, "crop_width")) d_.note(file_.at(film), "the crop is left out: the whole picture is taken");
     if (type == "thinlens") {
       camera.lens_radius = std::max(file_.number(node, "aperture_radius", 0), 0.0);
       camera.focus_distance = std::max(file_.number(node, "focus_distance", 1), 0.0);
     }
     if (type == "orthographic") { // its width is 2
       camera.height = 2 * h / w;
-      note_unasked(scene_, node);
-      return note_unasked(scene_, film);
+      return crop_camera(node, film);
     }
     camera.shift = {file_.number(node, "principal_point_offset_x", 0),
                     0 - file_.number(node, "principal_point_offset_y", 0)};
@@ -89,6 +99,18 @@ private:
                           : axis == "larger"   ? std::max(w, h)
                                                : w;
     camera.fov_deg = vertical_fov_deg(fov, h, across);
+    crop_camera(node, film);
+  }
+
+  void crop_camera(xml_node node, xml_node film) {
+    const glm::dvec2 whole(d_.camera->resolution[0], d_.camera->resolution[1]),
+        corner(file_.number(film, "crop_offset_x", 0), file_.number(film, "crop_offset_y", 0)),
+        size(file_.number(film, "crop_width", whole.x), file_.number(film, "crop_height", whole.y));
+    if (size.x < 1 || size.y < 1 || glm::any(glm::greaterThan(corner + size, whole)) ||
+        glm::any(glm::lessThan(corner, glm::dvec2(0))))
+      throw bad_input(file_.at(film), "the crop is no part of the picture",
+                      fmt::format("expected one within {} x {}", whole.x, whole.y));
+    crop(*d_.camera, corner, size);
     note_unasked(scene_, node);
     note_unasked(scene_, film);
   }
@@ -128,9 +150,8 @@ private:
         if (!fs::is_regular_file(s.file))
           throw bad_input(light.where, "the picture " + s.file.string() + " is not there");
         s.scale = file_.number(node, "scale", 1);
-        s.centre = light.direction;
-        if (glm::normalize(glm::dvec3(to_world[1])).y < 1 - 1e-6)
-          d_.note(light.where, "the surroundings' tilt is left out: they turn about +y alone");
+        require_inverse(to_world, light.where);
+        s.to_world = glm::dmat3(to_world);
       }
       d_.surroundings = s;
       return note_unasked(scene_, node);
@@ -145,7 +166,7 @@ private:
   }
 
   /// The plugins of Mitsuba 3.7 and later. Theirs is the sky of Hosek and Wilkie (2012, 2013) over a z axis that is
-  /// up, with -x to the north and -y to the east, turned by to_world.
+  /// up, with -x to the north and -y to the east, turned by to_world. A sun_direction is one of the world.
   void add_sky(xml_node node, const std::string& type, const glm::dmat3& to_world) {
     const auto whole = [&](const char* name, int standard) {
       return static_cast<int>(std::clamp(file_.number(node, name, standard), 0.0, 9999.0));
@@ -169,7 +190,7 @@ private:
     sky.sun_scale = type == "sky" ? 0 : std::clamp(file_.number(node, "sun_scale", 1), 0.0, 1e6);
     glm::dvec3 to_sun;
     if (file_.child(node, "sun_direction"))
-      to_sun = to_world * file_.point(node, "sun_direction", glm::dvec3(0));
+      to_sun = file_.point(node, "sun_direction", glm::dvec3(0));
     else {
       const preset::PlaceAndTime place{
           .latitude_deg = std::clamp(file_.number(node, "latitude", 35.6894), -90.0, 90.0),
@@ -186,9 +207,10 @@ private:
     const glm::dvec3& up = to_world[2];
     if (!(glm::length(to_sun) > 0) || !(glm::length(up) > 0))
       throw bad_input(file_.at(node), "its sun has no direction");
-    if (glm::normalize(up).y < 1 - 1e-6) d_.note(file_.at(node), "the sky's horizon is made level: up is +y here");
-    if (!(to_sun.y > 0)) return d_.note(file_.at(node), "the sun is below the horizon: the emitter is left out");
+    if (!(glm::dot(to_sun, up) > 0))
+      return d_.note(file_.at(node), "the sun is below the horizon: the emitter is left out");
     sky.sun_direction = scene::to_vec3(glm::normalize(to_sun));
+    d_.up = glm::normalize(up);
     file_.child(node, "sun_aperture"); // Mitsuba's keeps its irradiance, and so is the sun's own here
     d_.note(file_.at(node), "the sky is Preetham's model in place of Hosek's, with the ground below the horizon; the "
                             "sun has its own width, and its disc is not seen");
@@ -216,7 +238,7 @@ private:
     shape.inside_out = file_.flag(node, "flip_normals");
     if (!give_form(node, type, shape)) return d_.note(shape.where, "the shape " + type + " is left out");
     note_unasked(scene_, node);
-    shape.material = mitsuba_material(scene_, node);
+    shape.material = mitsuba_material(scene_, node, &shape.back);
     if (const xml_node emitter = file_.object(node, "emitter"))
       shape.glow = colour(emitter, "radiance", 1);
     else if (shape.material.empty())
@@ -236,8 +258,9 @@ private:
       // Mitsuba counts v from the top, and turns that of OBJ files round unless they say otherwise.
       const bool is_turned = file_.text(node, "flip_tex_coords", type == "obj" ? "true" : "false") == "true";
       if (!is_turned && turned_.insert(shape.mesh).second) turn_upside_down(d_.meshes.at(shape.mesh));
-      if (file_.child(node, "max_smooth_angle"))
-        d_.note(shape.where, "the greatest angle that is smoothed is left out");
+      if (file_.child(node, "max_smooth_angle") && !d_.meshes.at(shape.mesh).normals.empty())
+        d_.note(shape.where, "the greatest angle that is smoothed is left out: the mesh has normals of its own");
+      shape.crease_deg = std::clamp(file_.number(node, "max_smooth_angle", 180), 0.0, 180.0);
     } else if (type == "sphere") {
       shape.to_world = glm::translate(shape.to_world, file_.point(node, "center", glm::dvec3(0)));
       shape.radius = file_.number(node, "radius", 1);

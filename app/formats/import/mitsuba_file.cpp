@@ -53,6 +53,10 @@ void MitsubaFile::load(const fs::path& file, xml_node by) {
                     std::string("its XML is broken: ") + result.description(), "expected a Mitsuba scene",
                     "check that the file is whole");
   const xml_node root = document.xml.document_element();
+  for (xml_node more = root.next_sibling(); more; more = more.next_sibling())
+    if (more.type() == pugi::node_element)
+      throw bad_input(at(more), "a second <" + std::string(more.name()) + "> begins behind the scene's end",
+                      "expected one scene", "check that the file is not doubled");
   open_.push_back(whole);
   if (std::string_view(root.name()) == "scene")
     for (const xml_node node : root.children()) take(node);

@@ -176,28 +176,62 @@ DescribedGlass dielectric(MitsubaScene& scene, xml_node node, const char* inside
   return glass;
 }
 
-/// What of the bsdf is taken: those that only wrap others are unwrapped.
-/// normal_map: gets the outermost normalmap around it.
-xml_node unwrapped(MitsubaScene& scene, xml_node node, xml_node& normal_map) {
-  for (int depth = 0; node; ++depth) {
-    const std::string type = mitsuba_name(scene.file.attribute(node, "type"));
-    if (type != "twosided" && type != "bumpmap" && type != "normalmap" && type != "mask" && type != "blendbsdf") break;
-    if (type == "normalmap" && !normal_map)
-      normal_map = node;
-    else if (type != "twosided")
-      scene.d.note(scene.file.at(node), "the " + type + " is left out: the material in it is taken");
-    if (depth > 16) throw bad_input(scene.file.at(node), "materials go round in a circle");
-    node = scene.file.object(node, "bsdf");
-  }
-  return node;
-}
-
 /// A number, or with a note the standard in a texture's place.
 double plain_number(MitsubaScene& scene, xml_node node, const char* name, double standard) {
   if (const xml_node given = scene.file.child(node, name); given && !given.attribute("value"))
     scene.d.note(scene.file.at(given),
                  fmt::format("the texture of {} is left out: {:.3g} takes its place", name, standard));
   return scene.file.number(node, name, standard);
+}
+
+/// What is in the wrappers around a bsdf.
+struct Unwrapped {
+  xml_node bsdf, normal_map; ///< the outermost normalmap
+  xml_node back;             ///< the second of a twosided
+  bool is_twosided = false;
+};
+
+bool refracts(const MitsubaFile& file, xml_node bsdf) {
+  const std::string type = mitsuba_name(file.attribute(bsdf, "type"));
+  return type.ends_with("dielectric") || (type == "principled" && file.number(bsdf, "spec_trans", 0) >= 0.5);
+}
+
+/// The bsdf is none where nothing is there; a blend only where it is of opaque ones. blends: that it is in.
+Unwrapped unwrapped(MitsubaScene& scene, xml_node node, int blends = 0) {
+  constexpr int most_blends = 8;
+  const MitsubaFile& file = scene.file;
+  Unwrapped found;
+  if (blends > most_blends) throw bad_input(file.at(node), fmt::format("blends are more than {} deep", most_blends));
+  for (int depth = 0; node; ++depth) {
+    const std::string type = mitsuba_name(file.attribute(node, "type"));
+    const std::vector<xml_node> inside = file.objects(node, "bsdf");
+    const auto left_out = [&](const char* taken) {
+      scene.d.note(file.at(node), "the " + type + " is left out: " + taken);
+    };
+    if (depth > 16) throw bad_input(file.at(node), "materials go round in a circle");
+    xml_node next = inside.empty() ? xml_node() : inside[0];
+    if (type == "twosided") {
+      found.is_twosided = true;
+      if (inside.size() > 1) found.back = inside[1];
+    } else if (type == "mask") {
+      const double opacity = plain_number(scene, node, "opacity", 0.5);
+      if (opacity > 0 && opacity < 1) left_out(opacity < 0.5 ? "nothing is there" : "the material in it is taken");
+      if (opacity < 0.5) return found;
+    } else if (type == "normalmap" && !found.normal_map)
+      found.normal_map = node;
+    else if (type == "normalmap" || type == "bumpmap")
+      left_out("the material in it is taken");
+    else if (type == "blendbsdf" && inside.size() == 2) {
+      const Unwrapped parts[] = {unwrapped(scene, inside[0], blends + 1), unwrapped(scene, inside[1], blends + 1)};
+      if (std::ranges::all_of(parts, [&](const Unwrapped& p) { return p.bsdf && !refracts(file, p.bsdf); })) break;
+      left_out("the heavier material in it is taken");
+      next = inside[file.number(node, "weight", 0.5) > 0.5 ? 1 : 0];
+    } else
+      break;
+    node = next;
+  }
+  if (mitsuba_name(file.attribute(node, "type")) != "null") found.bsdf = node;
+  return found;
 }
 
 /// By n and k, or by name; nothing for a perfect mirror, and with a note where it is not to be had.
@@ -228,7 +262,10 @@ std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, 
   const glm::dmat4 to_uv = file.to_world(node, "to_uv");
   // A matrix of 3 x 3 has its shift in the third column, one of 4 x 4 in the fourth.
   const glm::dvec2 offset(glm::dvec3(to_uv[2]).x + to_uv[3].x, glm::dvec3(to_uv[2]).y + to_uv[3].y);
-  const TextureMap map = upside_down({glm::dmat2(to_uv), offset});
+  // Of version 0.6.
+  const glm::dvec2 scale(file.number(node, "uscale", 1), file.number(node, "vscale", 1)),
+      shift(file.number(node, "uoffset", 0), file.number(node, "voffset", 0));
+  const TextureMap map = upside_down({glm::dmat2(scale.x, 0, 0, scale.y) * glm::dmat2(to_uv), scale * offset + shift});
   if (type == "checkerboard") {
     preset::Texture board;
     board.type = preset::Texture::Type::checkerboard;
@@ -242,14 +279,14 @@ std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, 
   const std::string wrap = file.text(node, "wrap_mode", "repeat");
   if (file.text(node, "filter_type", "bilinear") != "bilinear")
     scene.d.note(where, "the texels of the texture have no edges here");
-  if (file.flag(node, "raw") && texels == scatter::Texels::colours)
-    scene.d.note(where, "the texture is raw in the file, and taken as sRGB here");
+  const bool is_raw = file.flag(node, "raw") && texels == scatter::Texels::colours;
   note_unasked(scene, node);
-  return picture(file.find(node, file.text(node, "filename", "")),
-                 wrap == "mirror"  ? preset::Texture::Wrap::mirror
-                 : wrap == "clamp" ? preset::Texture::Wrap::clamp
-                                   : preset::Texture::Wrap::repeat,
-                 map, where, scene.d);
+  const auto taken = picture(file.find(node, file.text(node, "filename", "")),
+                             wrap == "mirror"  ? preset::Texture::Wrap::mirror
+                             : wrap == "clamp" ? preset::Texture::Wrap::clamp
+                                               : preset::Texture::Wrap::repeat,
+                             map, where, scene.d);
+  return taken && is_raw ? linear_picture(*taken, false, {}, where, scene.d) : taken;
 }
 
 /// As a preset has it, whose square is the alpha of GGX. texture: gets the picture that it is multiplied by; null: that
@@ -275,6 +312,15 @@ double roughness_of(MitsubaScene& scene, xml_node node, const std::string& key,
 preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& type, const std::string& key) {
   const MitsubaFile& file = scene.file;
   const Location where = file.at(node);
+  if (type == "blendbsdf") {
+    const auto part = [&](std::size_t i) {
+      const auto [bsdf, normal_map, back, is_twosided] = unwrapped(scene, file.objects(node, "bsdf")[i]);
+      if (normal_map) scene.d.note(file.at(normal_map), "the normalmap in a blendbsdf is left out");
+      if (back) scene.d.note(file.at(back), "the second side in a blendbsdf is left out");
+      return opaque(scene, bsdf, mitsuba_name(file.attribute(bsdf, "type")), key);
+    };
+    return mixed(part(0), part(1), plain_number(scene, node, "weight", 0.5), where, scene.d);
+  }
   preset::Material made;
   if (type == "conductor" || type == "roughconductor") {
     made.type = preset::Material::Type::mirror;
@@ -349,32 +395,34 @@ DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::
   const xml_node node = scene.file.child(parent, name);
   if (!node) return grey;
   if (const auto colour = colour_of(scene, node)) return *colour;
+  if (const auto texture = texture_of(scene, parent, name, scatter::Texels::numbers))
+    if (const auto mean = mean_of(*texture, !scene.file.flag(node, "raw"))) {
+      scene.d.note(scene.file.at(node), fmt::format("this {} is taken by its mean", node.name()));
+      grey.rgb = *mean;
+      return grey;
+    }
   scene.d.note(scene.file.at(node), fmt::format("this {} is left out: {:.3g} takes its place", node.name(), standard));
   return grey;
 }
 
-std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
+namespace {
+
+/// The key of what an unwrapped bsdf is, which may be a new one. medium: inside of it.
+std::string key_of(MitsubaScene& scene, const Unwrapped& from, xml_node medium) {
   const MitsubaFile& file = scene.file;
-  xml_node normal_map;
-  const xml_node node = unwrapped(scene, file.object(shape, "bsdf"), normal_map),
-                 medium = file.object(shape, "medium", "interior");
-  if (file.object(shape, "medium", "exterior"))
-    scene.d.note(file.at(shape), "the medium around it is left out: there is clear space in its place");
+  const xml_node node = from.bsdf, normal_map = from.normal_map;
   const std::string type = node ? mitsuba_name(file.attribute(node, "type")) : "diffuse";
   const double through = type == "principled" ? file.number(node, "spec_trans", 0) : 0;
-  const bool thin = type == "thindielectric", refracts = type.ends_with("dielectric") || through >= 0.5;
-  if (medium && !refracts)
-    scene.d.note(file.at(shape), "the medium in it is left out: there is clear space in its place");
-  if (type == "null") return {};
+  const bool thin = type == "thindielectric", is_glass = node && refracts(file, node);
   const auto [known, is_new] =
-      scene.keys.try_emplace({node.hash_value(), (refracts ? medium : normal_map).hash_value()});
+      scene.keys.try_emplace({node.hash_value(), (is_glass ? medium : normal_map).hash_value()});
   if (!is_new) return known->second;
   const std::string id = node ? file.attribute(node, "id") : std::string();
   const std::string key = known->second =
       unique(node ? name_of(id, fmt::format("material {}", file.at(node).line)) : "plain", scene.taken);
-  if (normal_map && (refracts || type != "diffuse"))
+  if (normal_map && (is_glass || type != "diffuse"))
     scene.d.note(file.at(normal_map), "the normalmap is left out: here only diffuse surfaces have one");
-  if (!refracts) {
+  if (!is_glass) {
     preset::Material& made = scene.d.materials[key] = opaque(scene, node, type, key);
     if (normal_map && type == "diffuse") {
       const auto map = texture_of(scene, normal_map, "normalmap", scatter::Texels::numbers);
@@ -405,6 +453,37 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape) {
   if (medium && !thin) glass.absorption = absorption_of(scene, medium);
   note_unasked(scene, node);
   scene.d.dielectrics[key] = glass;
+  return key;
+}
+
+/// The key of what all light is lost on.
+const std::string& black_key(MitsubaScene& scene) {
+  if (scene.black.empty()) {
+    scene.black = unique("black back", scene.taken);
+    scene.d.materials[scene.black].reflectance.value = 0;
+  }
+  return scene.black;
+}
+
+} // namespace
+
+std::string mitsuba_material(MitsubaScene& scene, xml_node shape, std::optional<std::string>* back) {
+  const MitsubaFile& file = scene.file;
+  const xml_node bsdf = file.object(shape, "bsdf"), medium = file.object(shape, "medium", "interior");
+  if (file.object(shape, "medium", "exterior"))
+    scene.d.note(file.at(shape), "the medium around it is left out: there is clear space in its place");
+  const Unwrapped front = unwrapped(scene, bsdf);
+  const std::string type = mitsuba_name(file.attribute(front.bsdf, "type"));
+  const bool is_glass = front.bsdf && refracts(file, front.bsdf);
+  if (medium && !is_glass)
+    scene.d.note(file.at(shape), "the medium in it is left out: there is clear space in its place");
+  if (bsdf && !front.bsdf) return {};
+  const std::string key = key_of(scene, front, medium);
+  const Unwrapped behind = unwrapped(scene, front.back);
+  if (behind.bsdf)
+    *back = key_of(scene, behind, {});
+  else if (!front.is_twosided && !is_glass && type != "principled")
+    *back = black_key(scene);
   return key;
 }
 

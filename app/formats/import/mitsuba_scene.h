@@ -11,6 +11,7 @@ struct MitsubaScene {
   Description& d;
   std::map<std::pair<std::size_t, std::size_t>, std::string> keys{}; ///< of materials, by bsdf and medium or normalmap
   TakenNames taken{};
+  std::string black{}; ///< the key of what is black; empty: none yet
 };
 
 /// The child of this name; where it is none, a note says that a grey of `standard` takes its place.
@@ -19,7 +20,8 @@ DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::
 /// A note for each value of a node that nothing has asked for and that changes a picture.
 void note_unasked(MitsubaScene& scene, xml_node node);
 
-/// The key of the shape's material or dielectric, which may be a new one. Empty: its surface is none.
-std::string mitsuba_material(MitsubaScene& scene, xml_node shape);
+/// The key of the shape's material or dielectric, which may be a new one. Empty: its surface is none. back: gets the
+/// key of its back where that has another: the second of a twosided, or black.
+std::string mitsuba_material(MitsubaScene& scene, xml_node shape, std::optional<std::string>* back);
 
 } // namespace nephroid::formats

@@ -3,6 +3,7 @@
 // +z, so coordinates are left-handed unless the file mirrors them.
 #include "base/error.h"
 #include "formats/import/pbrt_scene.h"
+#include "formats/import/textures.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 
 namespace nephroid::formats {
@@ -23,8 +25,14 @@ const std::set<std::string> about_rendering{"Sampler",          "Integrator",  "
                                             "VolumeIntegrator", "PixelFilter", "Accelerator",
                                             "Renderer",         "ColorSpace",  "Option"};
 
+/// To the world at the first of both times, and at the second; which of them the next transforms are for.
+struct Transforms {
+  glm::dmat4 start{1}, end{1};
+  bool at_start = true, at_end = true;
+};
+
 struct State {
-  glm::dmat4 to_world{1};
+  Transforms to_world;
   std::string material; ///< a key of PbrtScene::materials
   Location material_where{};
   std::string inside; ///< the medium in what is described
@@ -76,31 +84,39 @@ private:
   }
 
   bool is_transform(const std::string& word, const Location& where) {
-    glm::dmat4& m = state_.to_world;
+    std::function<glm::dmat4(const glm::dmat4&)> change;
     if (word == "WorldBegin" || word == "Identity") {
-      m = glm::dmat4(1);
-      if (word == "WorldBegin") systems_["world"] = m;
+      if (word == "WorldBegin") {
+        systems_["world"] = glm::dmat4(1);
+        state_.to_world.at_start = state_.to_world.at_end = true;
+      }
+      change = [](const glm::dmat4&) { return glm::dmat4(1); };
     } else if (word == "Translate" || word == "Scale") {
       const auto v = file_.numbers(where, 3);
       const glm::dvec3 by(v[0], v[1], v[2]);
-      m = word == "Scale" ? glm::scale(m, by) : glm::translate(m, by);
+      change = [=](const glm::dmat4& m) { return word == "Scale" ? glm::scale(m, by) : glm::translate(m, by); };
     } else if (word == "Rotate") {
       const auto v = file_.numbers(where, 4);
-      m = rotated(m, v[0], {v[1], v[2], v[3]}, where);
+      change = [=](const glm::dmat4& m) { return rotated(m, v[0], {v[1], v[2], v[3]}, where); };
     } else if (word == "LookAt") {
       const auto v = file_.numbers(where, 9);
-      m = m * glm::inverse(look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, where));
+      const glm::dmat4 to_camera =
+          glm::inverse(look_at({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, where));
+      change = [=](const glm::dmat4& m) { return m * to_camera; };
     } else if (word == "Transform" || word == "ConcatTransform") {
       const glm::dmat4 given = glm::make_mat4(file_.numbers(where, 16).data());
-      m = word == "Transform" ? given : m * given;
+      change = [=](const glm::dmat4& m) { return word == "Transform" ? given : m * given; };
     } else if (word == "CoordinateSystem") {
-      systems_[file_.string(where)] = m;
+      systems_[file_.string(where)] = state_.to_world.start;
+      return true;
     } else if (word == "CoordSysTransform") {
       const std::string name = file_.string(where);
       if (!systems_.contains(name)) throw bad_input(where, "there is no coordinate system \"" + name + "\" above it");
-      m = systems_[name];
+      change = [this, name](const glm::dmat4&) { return systems_[name]; };
     } else
       return false;
+    if (state_.to_world.at_start) state_.to_world.start = change(state_.to_world.start);
+    if (state_.to_world.at_end) state_.to_world.end = change(state_.to_world.end);
     return true;
   }
 
@@ -109,13 +125,16 @@ private:
     if (word == "WorldEnd") return true;
     if (word == "ReverseOrientation") {
       state_.reversed = !state_.reversed;
-    } else if (word == "ActiveTransform" || word == "TransformTimes") {
-      if (word == "TransformTimes")
-        file_.numbers(where, 2);
-      else
-        file_.token(where);
-      d_.note(where, "motion is left out: everything stands still");
+    } else if (word == "TransformTimes") {
+      file_.numbers(where, 2);
+    } else if (word == "ActiveTransform") {
+      const std::string& times = file_.token(where).text;
+      if (times != "StartTime" && times != "EndTime" && times != "All")
+        throw bad_input(where, "\"" + times + "\" is no time of a transform", "expected StartTime, EndTime or All");
+      state_.to_world.at_start = times != "EndTime";
+      state_.to_world.at_end = times != "StartTime";
     } else if (word == "ObjectInstance") {
+      note_motion(where);
       instance(file_.string(where), where);
     } else if (word == "NamedMaterial") {
       state_.material = file_.string(where);
@@ -156,8 +175,18 @@ private:
       scene_.is_version_3 = type == "image";
       resolution_ = {static_cast<int>(std::clamp(p.number("xresolution", 1280), 1.0, 16384.0)),
                      static_cast<int>(std::clamp(p.number("yresolution", 720), 1.0, 16384.0))};
-      for (const char* exposure : {"iso", "exposuretime", "sensor"})
-        if (p.find(exposure)) d_.note(where, std::string("the film's ") + exposure + " is left out");
+      if (p.find("sensor")) d_.note(where, "the film's sensor is left out");
+      speed_ = p.number("iso", 100) / 100;
+      crop_.clear();
+      for (const char* name : {"cropwindow", "pixelbounds"})
+        if (const PbrtParameter* given = p.find(name)) {
+          crop_ = given->numbers();
+          if (crop_.size() != 4) throw bad_input(given->where, "the crop has not four values", "expected x x y y");
+          if (given->name == "cropwindow")
+            for (std::size_t i = 0; i < 4; ++i) crop_[i] = std::ceil(crop_[i] * resolution_[i / 2] - 1e-4);
+        }
+      if (p.find("exposuretime")) open_s_ = p.number("exposuretime", 1);
+      expose();
       note_unasked(scene_, p);
       if (d_.camera) frame();
     } else if (word == "Camera")
@@ -168,7 +197,8 @@ private:
     } else if (word == "MakeNamedMaterial")
       scene_.materials[type] = {p.text("type", "diffuse"), p};
     else if (word == "LightSource") {
-      add_pbrt_light(scene_, type, p, state_.to_world);
+      note_motion(where);
+      add_pbrt_light(scene_, type, p, state_.to_world.start);
       note_unasked(scene_, p);
     } else if (word == "AreaLightSource")
       state_.glow = {type, p};
@@ -188,12 +218,19 @@ private:
     return p;
   }
 
+  void note_motion(const Location& where) {
+    if (state_.to_world.start != state_.to_world.end)
+      d_.note(where, "motion is left out: it stands where it is at the first of both times");
+  }
+
   void note_medium(const Location& where) { d_.note(where, "media are left out: there is clear space in their place"); }
 
   void add_camera(const std::string& type, const PbrtParameters& p) {
-    if (!(std::abs(glm::determinant(state_.to_world)) > 0)) throw bad_input(p.where, "the camera's transform is flat");
-    systems_["camera"] = glm::inverse(state_.to_world);
+    if (!(std::abs(glm::determinant(state_.to_world.start)) > 0))
+      throw bad_input(p.where, "the camera's transform is flat");
+    systems_["camera"] = glm::inverse(state_.to_world.start);
     if (type != "perspective" && type != "orthographic") return d_.note(p.where, "the camera " + type + " is left out");
+    note_motion(p.where);
     DescribedCamera& camera = d_.camera.emplace();
     camera.where = p.where;
     camera.to_world = systems_["camera"];
@@ -207,15 +244,25 @@ private:
       if (!window_.empty()) d_.note(p.where, "its screenwindow is left out: it is no left, right, bottom and top");
       window_.clear();
     }
+    if (p.find("shutterclose") || p.find("shutteropen"))
+      open_s_ = p.number("shutterclose", 1) - p.number("shutteropen", 0);
+    expose();
     if (p.find("frameaspectratio")) d_.note(p.where, "its frameaspectratio is left out");
     note_unasked(scene_, p);
     frame();
+  }
+  /// As frame(). The imaging ratio of version 4; in version 3 the shutter only says what moves.
+  void expose() {
+    if (!(open_s_ * speed_ > 0))
+      throw bad_input(d_.source.string(), "has a shutter that does not open, or a film of ISO 0");
+    d_.exposure = scene_.is_version_3 ? 1 : open_s_ * speed_;
   }
   /// The film may come before the camera or after it. fov is that of the shorter edge, which a window has from -1 to 1.
   void frame() {
     DescribedCamera& camera = *d_.camera;
     const double w = resolution_[0], h = resolution_[1], shorter = std::min(w, h);
     camera.resolution = resolution_;
+    camera.shift = {0, 0};
     double height = 2 * h / shorter;
     if (!window_.empty()) {
       const double across = window_[1] - window_[0];
@@ -226,10 +273,16 @@ private:
     }
     camera.fov_deg = vertical_fov_deg(fov_, height, 2);
     if (orthographic_) camera.height = height;
+    if (crop_.empty()) return;
+    const glm::dvec2 whole(w, h), low = glm::clamp(glm::dvec2(crop_[0], crop_[2]), glm::dvec2(0), whole),
+                                  high = glm::clamp(glm::dvec2(crop_[1], crop_[3]), glm::dvec2(0), whole);
+    if (high.x - low.x < 1 || high.y - low.y < 1) throw bad_input(camera.where, "the film's crop has no pixels");
+    crop(camera, low, high - low);
   }
 
   void add_shape(const std::string& type, const PbrtParameters& p) {
-    std::optional<DescribedShape> shape = pbrt_shape(scene_, type, p, state_.to_world);
+    note_motion(p.where);
+    std::optional<DescribedShape> shape = pbrt_shape(scene_, type, p, state_.to_world.start);
     if (!shape) return;
     note_unasked(scene_, p);
     shape->inside_out = state_.reversed;
@@ -240,7 +293,15 @@ private:
       shape->glow = pbrt_light_colour(scene_, light, "L");
       shape->glows_on_both_sides = light.text("twosided", "false") == "true";
       if (const double power = light.number("power", -1); power > 0) shape->glow_power = power;
-      if (light.find("filename")) d_.note(light.where, "the light's picture is left out: it is white");
+      if (const std::string picture = light.text("filename", ""); !picture.empty()) {
+        const auto mean = mean_of({.file = scene_.file.find(picture, light.where).string()}, true);
+        d_.note(light.where, mean ? "the light's picture is taken by its mean"
+                                  : "the light's picture cannot be read and is left out: it is white");
+        if (mean && shape->glow->spectrum)
+          *shape->glow = *shape->glow * glm::dot(*mean, {0.2126, 0.7152, 0.0722});
+        else if (mean)
+          shape->glow->rgb *= *mean;
+      }
       note_unasked(scene_, light);
     }
     (object_ ? *object_ : d_.shapes).push_back(std::move(*shape));
@@ -286,7 +347,7 @@ private:
     std::vector<DescribedShape>& into = object_ ? *object_ : d_.shapes;
     if (into.size() + found->second.size() > max_shapes) throw bad_input(where, "there are too many shapes");
     for (DescribedShape shape : found->second) {
-      shape.to_world = state_.to_world * shape.to_world;
+      shape.to_world = state_.to_world.start * shape.to_world;
       into.push_back(std::move(shape));
     }
   }
@@ -302,8 +363,10 @@ private:
   std::vector<DescribedShape>* object_ = nullptr; ///< the one that is being described
   std::string object_name_;
   std::array<int, 2> resolution_{1280, 720};
+  double open_s_ = 1, speed_ = 1; ///< of the shutter, and of the film over ISO 100
   double fov_ = 90;
   bool orthographic_ = false;
+  std::vector<double> crop_;   ///< from and to in x and in y, in pixels; empty: none
   std::vector<double> window_; ///< left, right, bottom, top; empty: by the film
   int materials_ = 0;
 };

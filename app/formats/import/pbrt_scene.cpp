@@ -12,13 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 namespace nephroid::formats {
 namespace {
 
-using std::numbers::pi;
 using Rows = std::vector<std::array<double, 2>>;
 
 /// Schott's glasses that PBRT names: Sellmeier's coefficients of Schott's data sheets.
@@ -145,62 +143,6 @@ std::optional<DescribedColour> absorption_of(PbrtScene& scene, const PbrtThing& 
   return absorption;
 }
 
-} // namespace
-
-void note_unasked(PbrtScene& scene, const PbrtParameters& p) {
-  // How to render, textures' coordinates, what has a note of its own, and what only counts where a sensor, a lens or
-  // scattering does.
-  static const std::string_view harmless =
-      " type filename diagonal savefp16 maxcomponentvalue maxsampleluminance shutteropen shutterclose focaldistance "
-      "samples nsamples from to portal uv st S faceIndices emissionfilename remaproughness uroughness vroughness eta k "
-      "g ";
-  for (const PbrtParameter& parameter : p.unasked())
-    if (harmless.find(" " + parameter.name + " ") == std::string_view::npos)
-      scene.d.note(parameter.where, fmt::format("its \"{}\" is left out", parameter.name));
-}
-
-DescribedColour pbrt_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name, double standard) {
-  DescribedColour grey;
-  grey.rgb = glm::dvec3(standard);
-  const PbrtParameter* given = resolved(scene, p, name);
-  if (!given) return grey;
-  if (const auto colour = colour_of(scene, *given)) return *colour;
-  scene.d.note(given->where,
-               fmt::format("the {} \"{}\" is left out: {:.3g} takes its place", given->type, name, standard));
-  return grey;
-}
-
-DescribedColour pbrt_light_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name) {
-  DescribedColour colour = pbrt_colour(scene, p, name, 1);
-  if (colour.spectrum && !scene.is_version_3 && !colour.is_black()) colour = colour * (1 / colour.luminance);
-  return colour * p.number("scale", 1);
-}
-
-namespace {
-
-/// Copper where nothing is said.
-preset::Material metal(PbrtScene& scene, const std::string& key, const PbrtParameters& p) {
-  const PbrtParameter *const eta = resolved(scene, p, "eta"), *const k = resolved(scene, p, "k");
-  const auto is_named = [](const PbrtParameter* given) {
-    return given && given->type == "spectrum" && is_name(*given);
-  };
-  const std::string name = !eta && !k ? "metal-Cu-eta" : is_named(eta) ? eta->values[0] : std::string();
-  if (name.starts_with("metal-") && name.ends_with("-eta")) // as version 4 names them
-    if (const auto metal = metal_of_element(name.substr(6, name.size() - 10))) return *metal;
-  if (eta && k)
-    if (const auto n = colour_of(scene, *eta), extinction = colour_of(scene, *k); n && extinction)
-      if (auto own = metal_of(scene.d, key, values_of(*n), values_of(*extinction))) return *own;
-  scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
-  preset::Material mirror;
-  mirror.type = preset::Material::Type::mirror;
-  mirror.reflectance.value = 0.9;
-  return mirror;
-}
-
-} // namespace
-
-namespace {
-
 /// A picture or a checkerboard, and what it is multiplied by.
 struct ScaledTexture {
   preset::Texture texture;
@@ -255,18 +197,87 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
   const std::string wrap = p.text("wrap", "repeat");
   if (wrap != "repeat" && wrap != "clamp")
     scene.d.note(p.where, "the texture is not " + wrap + " beyond its edges here");
-  if (p.text("invert", "false") == "true") scene.d.note(p.where, "the texture is not inverted here");
-  made.is_srgb = p.text("encoding", "sRGB") == "sRGB";
-  if (!made.is_srgb && texels == scatter::Texels::colours)
-    scene.d.note(p.where, "the texture's integers are taken as sRGB here");
+  const std::string encoding = p.text("encoding", "sRGB");
+  made.is_srgb = encoding == "sRGB";
+  const bool is_inverted = p.text("invert", "false") == "true";
+  if (!made.is_srgb && encoding != "linear")
+    scene.d.note(p.where, "the texture's encoding " + encoding + " is left out: its integers are linear here");
   made.factor = made.factor * p.number("scale", 1);
   auto file =
       picture(scene.file.find(p.text("filename", ""), p.where),
               wrap == "repeat" ? preset::Texture::Wrap::repeat : preset::Texture::Wrap::clamp, map, p.where, scene.d);
+  if (file && (is_inverted || (!made.is_srgb && texels == scatter::Texels::colours))) {
+    const double scale = p.number("scale", 1);
+    file = linear_picture(*file, made.is_srgb, is_inverted ? std::optional(scale) : std::nullopt, p.where, scene.d);
+    made.is_srgb = false;
+    if (is_inverted) made.factor = {};
+  }
   if (!file) return std::nullopt;
   made.texture = *file;
   return made;
 }
+
+} // namespace
+
+void note_unasked(PbrtScene& scene, const PbrtParameters& p) {
+  // How to render, textures' coordinates, what has a note of its own, and what only counts where a sensor, a lens or
+  // scattering does.
+  static const std::string_view harmless =
+      " type filename diagonal savefp16 maxcomponentvalue maxsampleluminance shutteropen shutterclose focaldistance "
+      "samples nsamples from to portal uv st S faceIndices emissionfilename remaproughness uroughness vroughness eta k "
+      "g ";
+  for (const PbrtParameter& parameter : p.unasked())
+    if (harmless.find(" " + parameter.name + " ") == std::string_view::npos)
+      scene.d.note(parameter.where, fmt::format("its \"{}\" is left out", parameter.name));
+}
+
+DescribedColour pbrt_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name, double standard) {
+  DescribedColour grey;
+  grey.rgb = glm::dvec3(standard);
+  const PbrtParameter* given = resolved(scene, p, name);
+  if (!given) return grey;
+  if (const auto colour = colour_of(scene, *given)) return *colour;
+  if (const auto scaled = texture_of(scene, p, name, scatter::Texels::colours))
+    if (const auto mean = mean_of(scaled->texture, scaled->is_srgb)) {
+      scene.d.note(given->where, fmt::format("the {} \"{}\" is taken by its mean", given->type, name));
+      grey.rgb = *mean * linear_srgb_of(scaled->factor);
+      return grey;
+    }
+  scene.d.note(given->where,
+               fmt::format("the {} \"{}\" is left out: {:.3g} takes its place", given->type, name, standard));
+  return grey;
+}
+
+DescribedColour pbrt_light_colour(PbrtScene& scene, const PbrtParameters& p, const std::string& name) {
+  DescribedColour colour = pbrt_colour(scene, p, name, 1);
+  if (colour.spectrum && !scene.is_version_3 && !colour.is_black()) colour = colour * (1 / colour.luminance);
+  return colour * p.number("scale", 1);
+}
+
+namespace {
+
+/// Copper where nothing is said.
+preset::Material metal(PbrtScene& scene, const std::string& key, const PbrtParameters& p) {
+  const PbrtParameter *const eta = resolved(scene, p, "eta"), *const k = resolved(scene, p, "k");
+  const auto is_named = [](const PbrtParameter* given) {
+    return given && given->type == "spectrum" && is_name(*given);
+  };
+  const std::string name = !eta && !k ? "metal-Cu-eta" : is_named(eta) ? eta->values[0] : std::string();
+  if (name.starts_with("metal-") && name.ends_with("-eta")) // as version 4 names them
+    if (const auto metal = metal_of_element(name.substr(6, name.size() - 10))) return *metal;
+  if (eta && k)
+    if (const auto n = colour_of(scene, *eta), extinction = colour_of(scene, *k); n && extinction)
+      if (auto own = metal_of(scene.d, key, values_of(*n), values_of(*extinction))) return *own;
+  scene.d.note(p.where, "the metal is left out: a mirror of 0.9 takes its place");
+  preset::Material mirror;
+  mirror.type = preset::Material::Type::mirror;
+  mirror.reflectance.value = 0.9;
+  return mirror;
+}
+
+} // namespace
+
+namespace {
 
 /// As a preset has it, whose square is the alpha of GGX. PBRT's alpha is the root of its roughness, in version 3 a
 /// polynomial of its logarithm. standard: where the file has none. texture: gets the picture that it is multiplied by;
@@ -305,6 +316,39 @@ double roughness_of(PbrtScene& scene, const PbrtParameters& p, double standard, 
 
 } // namespace
 
+namespace {
+
+/// Version 4 names "materials" and how much there is of the second, 3 two materials and how much there is of the first.
+bool add_mix(PbrtScene& scene, const std::string& key, const PbrtParameters& p) {
+  const PbrtParameter* const list = p.find("materials");
+  const std::string names[] = {list && !list->values.empty() ? list->values[0] : p.text("namedmaterial1", ""),
+                               list && list->values.size() > 1 ? list->values[1] : p.text("namedmaterial2", "")};
+  const double amount = glm::dot(linear_srgb_of(pbrt_colour(scene, p, "amount", 0.5)), glm::dvec3(1.0 / 3)),
+               weight = list ? amount : 1 - amount;
+  preset::Material parts[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto part = scene.materials.find(names[i]);
+    if (part == scene.materials.end()) throw bad_input(p.where, "there is no material \"" + names[i] + "\" to mix");
+    const std::string name = key + "\n" + names[i]; // of no material that is kept
+    if (++scene.mixes > 8)
+      throw bad_input(p.where, "mixes are in each other more than 8 deep, or go round in a circle");
+    add_pbrt_material(scene, name, part->second, nullptr);
+    --scene.mixes;
+    const auto opaque = scene.d.materials.extract(name);
+    if (opaque.empty()) {
+      scene.d.dielectrics.erase(name);
+      scene.d.note(p.where, "the mix is left out: the heavier material in it is taken");
+      return add_pbrt_material(scene, key, scene.materials.at(names[weight > 0.5 ? 1 : 0]), nullptr);
+    }
+    parts[i] = opaque.mapped();
+  }
+  scene.d.materials[key] = mixed(parts[0], parts[1], weight, p.where, scene.d);
+  note_unasked(scene, p);
+  return true;
+}
+
+} // namespace
+
 bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing& material, const PbrtThing* medium) {
   const std::string& type = material.type;
   const PbrtParameters& p = material.parameters;
@@ -329,6 +373,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
     note_unasked(scene, p);
     return true;
   }
+  if (type == "mix" && (p.find("materials") || p.find("namedmaterial1"))) return add_mix(scene, key, p);
   preset::Material& made = scene.d.materials[key];
   const auto reflect = [&](const char* name, double standard) {
     if (made.type == preset::Material::Type::diffuse)
@@ -370,43 +415,6 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
                                       : is_older     ? "0.25"
                                                      : "0.5"));
   return true;
-}
-
-/// The luminance of a white of 1 is 1 in version 4, which divides a light by the luminance of its spectrum.
-void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParameters& p, const glm::dmat4& to_world) {
-  DescribedLight light;
-  light.where = p.where;
-  const glm::dvec3 from = p.vector("from", {0, 0, 0}), to = p.vector("to", {0, 0, 1});
-  light.position = glm::dvec3(to_world * glm::dvec4(from, 1));
-  light.direction = glm::dmat3(to_world) * (to - from);
-  light.colour = pbrt_light_colour(scene, p, type == "distant" || type == "infinite" ? "L" : "I");
-  const double power = p.number("power", -1), lux = p.number("illuminance", -1);
-  if (type == "point") {
-    if (power > 0) light.colour = light.colour * (power / (4 * pi));
-  } else if (type == "spot") {
-    light.type = preset::Light::Type::spot;
-    const double cone = std::clamp(p.number("coneangle", 30), 0.01, 90.0);
-    const double start = std::clamp(cone - p.number("conedeltaangle", 5), 0.0, cone);
-    const double low = std::cos(glm::radians(cone)), high = std::cos(glm::radians(start));
-    light.half_angle_deg = same_power_half_angle_deg(cone, [&](double a) {
-      const double t = high > low ? std::clamp((std::cos(a) - low) / (high - low), 0.0, 1.0) : 1;
-      return t * t * (3 - 2 * t);
-    });
-    if (power > 0)
-      light.colour = light.colour * (power / (2 * pi * (1 - std::cos(glm::radians(light.half_angle_deg)))));
-    if (start < cone) scene.d.note(p.where, "the spot's fading edge is left out: a sharp cone has its power");
-  } else if (type == "distant") {
-    light.type = preset::Light::Type::directional;
-    if (lux > 0) light.colour = light.colour * lux;
-  } else if (type == "infinite" && scene.d.surroundings) {
-    return scene.d.note(p.where, "a second light infinite is left out");
-  } else if (type == "infinite" && !p.find("filename") && !p.find("mapname")) {
-    scene.d.surroundings = {
-        .where = p.where, .file = {}, .colour = linear_srgb_of(light.colour), .scale = lux > 0 ? lux / pi : 1};
-    return;
-  } else
-    return scene.d.note(p.where, "the light " + type + (type == "infinite" ? " with a picture" : "") + " is left out");
-  scene.d.lights.push_back(light);
 }
 
 } // namespace nephroid::formats

@@ -7,6 +7,8 @@
 #include "image/image.h"
 #include "scatter/texture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -63,29 +65,53 @@ image::Image numbers_of(const preset::Texture& texture, bool is_srgb) {
   return {picture.width, picture.height, {"R", "G", "B"}, image::rgb_of(picture, texture.file).values};
 }
 
-/// texture gets the file of its own, written by `write`.
-template <class Write>
-void give_file(preset::Texture& texture, const std::string& name, const char* extension, Description& into,
-               const Write& write) {
-  texture.file = into.own_file(name, extension);
-  ByteStore bytes;
-  write(bytes);
-  into.files.emplace(texture.file,
-                     std::string(reinterpret_cast<const char*>(bytes.bytes().data()), bytes.bytes().size()));
+/// The texture with its picture anew: change(value, channel). Else as roughness_picture; what: for the note.
+template <class Change>
+std::optional<preset::Texture> rewritten(const preset::Texture& from, bool is_srgb, const std::string& name,
+                                         const char* what, const Location& where, Description& into,
+                                         const Change& change) {
+  preset::Texture made = from;
+  try {
+    image::Image picture = numbers_of(from, is_srgb);
+    for (std::size_t i = 0; i < picture.data.size(); ++i) picture.data[i] = change(picture.data[i], i % 3);
+    ByteStore bytes;
+    image::write_exr(bytes, picture);
+    made.file = into.own_bytes(name, ".exr", bytes);
+    return made;
+  } catch (const Error& error) {
+    into.note(where, fmt::format("{} is left out: {}", what, error.line()));
+    return std::nullopt;
+  }
 }
 
 } // namespace
 
 std::optional<preset::Texture> normals_with_y_up(const preset::Texture& map, bool is_srgb, const std::string& name,
                                                  const Location& where, Description& into) {
-  preset::Texture made = map;
+  return rewritten(map, is_srgb, name + " normals", "the normalmap", where, into,
+                   [](float value, std::size_t channel) { return channel == 1 ? 1 - value : value; });
+}
+
+std::optional<preset::Texture> linear_picture(const preset::Texture& picture, bool is_srgb,
+                                              std::optional<double> inverted, const Location& where,
+                                              Description& into) {
+  return rewritten(picture, is_srgb, std::filesystem::path(picture.file).stem().string(), "the picture", where, into,
+                   [&](float value, std::size_t) {
+                     return inverted ? static_cast<float>(std::max(1 - *inverted * double(value), 0.0)) : value;
+                   });
+}
+
+std::optional<glm::dvec3> mean_of(const preset::Texture& texture, bool is_srgb) {
+  const auto vector = [](const preset::Vec3& v) { return glm::dvec3(v[0], v[1], v[2]); };
+  if (texture.type == preset::Texture::Type::checkerboard)
+    return 0.5 * (vector(texture.colour0) + vector(texture.colour1));
   try {
-    image::Image picture = numbers_of(map, is_srgb);
-    for (std::size_t i = 1; i < picture.data.size(); i += 3) picture.data[i] = 1 - picture.data[i];
-    give_file(made, name + " normals", ".exr", into, [&](ByteStore& bytes) { image::write_exr(bytes, picture); });
-    return made;
-  } catch (const Error& error) {
-    into.note(where, "the normalmap is left out: " + error.line());
+    const image::Image picture = numbers_of(texture, is_srgb);
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < picture.data.size(); ++i)
+      if (std::isfinite(picture.data[i])) sum[static_cast<int>(i % 3)] += double(picture.data[i]);
+    return sum / (static_cast<double>(picture.width) * picture.height);
+  } catch (const Error&) {
     return std::nullopt;
   }
 }
@@ -107,8 +133,9 @@ std::optional<preset::Texture> roughness_picture(const preset::Texture& values, 
       const double mean = (double(rgb[i]) + double(rgb[i + 1]) + double(rgb[i + 2])) / 3;
       grey.push_back(static_cast<std::uint16_t>(std::lround(65535 * root(std::isfinite(mean) ? mean : 0))));
     }
-    give_file(made, name + " roughness", ".png", into,
-              [&](ByteStore& bytes) { image::write_png16(bytes, picture.width, picture.height, grey, "roughness"); });
+    ByteStore bytes;
+    image::write_png16(bytes, picture.width, picture.height, grey, "roughness");
+    made.file = into.own_bytes(name + " roughness", ".png", bytes);
     return made;
   } catch (const Error& error) {
     into.note(where, "the picture of its roughness is left out: " + error.line());

@@ -36,4 +36,12 @@ std::optional<preset::Texture> roughness_picture(const preset::Texture& values, 
 std::optional<preset::Texture> normals_with_y_up(const preset::Texture& map, bool is_srgb, const std::string& name,
                                                  const Location& where, Description& into);
 
+/// A picture of reflectances that are not encoded as a preset's are: written anew in linear values, or as 1 minus
+/// `inverted` times them. is_srgb: its integers are. Else as roughness_picture.
+std::optional<preset::Texture> linear_picture(const preset::Texture& picture, bool is_srgb,
+                                              std::optional<double> inverted, const Location& where, Description& into);
+
+/// The mean of all of a texture, linear sRGB; nothing where it cannot be read.
+std::optional<glm::dvec3> mean_of(const preset::Texture& texture, bool is_srgb);
+
 } // namespace nephroid::formats
