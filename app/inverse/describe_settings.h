@@ -26,13 +26,13 @@ inline constexpr Choice<inverse::Picture::Fit> choices<inverse::Picture::Fit>[] 
 
 template <>
 inline constexpr Choice<inverse::Light::Type> choices<inverse::Light::Type>[] = {
-    {inverse::Light::Type::parallel, "parallel", "As the sun's: from one direction."},
+    {inverse::Light::Type::parallel, "parallel", "From one direction; with a 'sun_deg' of 0.533 as the sun's."},
     {inverse::Light::Type::point, "point", "A lamp: from one place."},
     {inverse::Light::Type::area, "area", "A lamp of some size, parallel to the front; each place of it is a point."},
     {inverse::Light::Type::mesh, "mesh", "A lamp with the shape of a mesh, such as a tube or a letter."},
     {inverse::Light::Type::sun, "sun",
-     "The sun as it stands at a place and an hour; the front looks to "
-     "front_azimuth_deg and front_elevation_deg."}};
+     "The sun as it stands at a place and an hour, with its disc; the front looks to front_azimuth_deg and "
+     "front_elevation_deg."}};
 
 template <>
 inline constexpr Choice<inverse::Light::Shape> choices<inverse::Light::Shape>[] = {
@@ -263,8 +263,10 @@ inline void describe(preset::Fields& v, Settings& s) {
       "How far the front looks above the horizon: 0 is an upright pane, 90 a plate that lies with its front up; up on "
       "the plate is then away from front_azimuth_deg.",
       s.front_elevation_deg, {.unit = "degrees", .bounds = within(0, 90)});
-  v.field("sun_deg", "Diameter of the light's disc, which blurs the pictures; the sun's own is 0.53.", s.sun_deg,
-          {.unit = "degrees", .bounds = within(0, 20)});
+  v.field(
+      "sun_deg",
+      "Diameter of the light's disc, which blurs the pictures. Without, 0.533 where the light is of type sun, else 0.",
+      s.sun_deg, {.unit = "degrees", .bounds = within(0, 20)});
   v.field("scatter_deg", "How far a rough surface turns light, as a standard deviation; it blurs the pictures.",
           s.scatter_deg, {.unit = "degrees", .bounds = within(0, 10)});
   v.field("receiver_mm", "Width and height of every receiver; without, the object's.", s.receiver_mm,

@@ -19,6 +19,7 @@ namespace {
 constexpr double irradiance = 1000; ///< the sun's
 constexpr double reflectance = 0.8, ground_reflectance = 0.25;
 constexpr double fov_deg = 30;
+constexpr double widest_disc_deg = 10; ///< that a directional light may have
 constexpr int view_height = 600, least_width = 600, most_width = 1800;
 
 /// From one object's middle to the next, so that light beside a receiver falls beside the others, too.
@@ -132,10 +133,38 @@ preset::Dispersion dispersion_of(const preset::Preset& preset) {
   return index;
 }
 
+/// The light's own, or that of the judge's band, in which colours part.
+preset::LightSpectrum spectrum_of(const Layout& layout, const Settings& s) {
+  preset::LightSpectrum spectrum = s.light.spectrum.value_or(preset::LightSpectrum{});
+  if (!layout.spectrum || layout.coloured()) return spectrum;
+  const double half = std::max(s.band_nm, 1.0) / 2;
+  spectrum.type = preset::LightSpectrum::Type::table;
+  spectrum.table = {{s.wavelength_nm - half, 1}, {s.wavelength_nm + half, 1}};
+  return spectrum;
+}
+
+/// Of a disc that blurs as much as the judge's light and rough surface do: scatter has the variance of a disc of twice
+/// its radius.
+double disc_deg(const Layout& layout) {
+  return glm::degrees(2 * std::atan(glm::length(glm::dvec2(layout.disc(layout.light), 2 * layout.scatter))));
+}
+
+/// What of the judge's light the view has otherwise.
+std::string otherwise(const Layout& layout, const Settings& s) {
+  std::string said;
+  if (layout.scatter > 0)
+    said += fmt::format(". Glass is polished here: a wider sun stands for the scatter_deg of {:g}", s.scatter_deg);
+  if (const double disc = disc_deg(layout); disc > widest_disc_deg)
+    said +=
+        fmt::format(". The disc of {:.3g} degrees would blur more than this one of {:g} does", disc, widest_disc_deg);
+  if (layout.round) said += ". Light passes the corners beside the round object";
+  return said;
+}
+
 } // namespace
 
 std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset) {
-  const preset::LightSpectrum spectrum = settings(preset).light.spectrum.value_or(preset::LightSpectrum{});
+  const preset::LightSpectrum spectrum = spectrum_of(layout, settings(preset));
   // The luminance without its factor.
   const double luminous_part = optics::to_xyz(scatter::make_light_spectrum(spectrum, Location(preset.source)))[1];
   double brightest = 0; // over light that is spread evenly
@@ -143,14 +172,15 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   brightest *= static_cast<double>(layout.cell_count());
   const glm::dvec3 falls = light_ray(layout, {0, 0, layout.thickness}).direction;
   preset::Preset view; // the engine that renders is the default
-  view.description = (preset.name.empty() ? "The object" : preset.name) + " as glass over its receivers";
+  view.description = (preset.name.empty() ? "The object" : preset.name) + " as glass over its receivers" +
+                     otherwise(layout, settings(preset));
   view.unit = preset::Preset::Unit::mm;
   view.white = irradiance * -falls.z * luminous_part * reflectance / glm::pi<double>() * brightest;
   view.stop.seconds = 60;
   preset::Scene& scene = view.scene;
   scene.camera = camera(layout, falls);
   scene.materials["glass"].type = preset::Material::Type::dielectric;
-  if (layout.coloured())
+  if (layout.spectrum)
     scene.materials["glass"].dispersion = dispersion_of(preset);
   else
     scene.materials["glass"].dispersion.n = layout.n;
@@ -167,6 +197,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   sun.spectrum = spectrum;
   sun.irradiance_w_m2 = irradiance;
   sun.direction = scene::to_vec3(falls);
+  sun.angular_diameter_deg = std::min(disc_deg(layout), widest_disc_deg);
   scene.lights.push_back(sun);
   scene.environment.emplace(); // what glass reflects
   scene.environment->type = preset::Environment::Type::constant;

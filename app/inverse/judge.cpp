@@ -51,7 +51,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .lamp = four(l.light.lamp.value_or(glm::dvec3(0))),
           .lamp_weight = l.light.lamp ? number(lamp_weight(l)) : 0,
           .n = number(l.n),
-          .sun_radius = number(l.light.lamp_places.empty() ? l.sun_radius : 0),
+          .sun_radius = number(l.light.lamp_places.empty() ? l.disc(l.light) : 0),
           .scatter = number(l.scatter),
           .size_x = number(l.size.x),
           .size_y = number(l.size.y),
@@ -99,6 +99,7 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l) {
 Illumination between(const Illumination& a, const Illumination& b, double part) {
   Illumination made = a;
   made.facets.reset();
+  made.sun_radius = glm::mix(a.sun_radius, b.sun_radius, part);
   if (a.lamp && b.lamp) made.lamp = glm::mix(*a.lamp, *b.lamp, part);
   made.lamp_places.resize(std::max(a.lamp_places.size(), b.lamp_places.size()), {0, 0, 0, 1});
   for (std::size_t i = 0; i < made.lamp_places.size(); ++i)

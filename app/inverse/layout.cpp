@@ -116,7 +116,9 @@ void check_tool(const Layout& l, const Settings& s, const Location& own) {
   throw bad_input(own / "tool_radius_mm",
                   fmt::format("is {} mm, a tool that is wider than a facet of {:.4g} x {:.4g} mm", *s.tool_radius_mm,
                               l.facet().x, l.facet().y),
-                  fmt::format("expected at most {:.4g} mm", std::min(l.facet().x, l.facet().y) / 2),
+                  fmt::format("expected at most {:.4g} mm, with which a ball touches the middles of facets; a smaller "
+                              "one touches more of them, as workshop.md says",
+                              std::min(l.facet().x, l.facet().y) / 2),
                   fmt::format("or choose at most {} x {} facets", static_cast<int>(l.size.x / width),
                               static_cast<int>(l.size.y / width)));
 }
@@ -208,7 +210,7 @@ Layout make_layout(const preset::Preset& preset) {
            .frames = frames_of(s),
            .weights = of_receivers(s, [](const Receiver& r) { return r.weight; }),
            .offsets = offsets_of(s),
-           .sun_radius = std::tan(glm::radians(s.sun_deg / 2)),
+           .sun_radius = std::tan(glm::radians(s.sun_deg.value_or(0) / 2)),
            .scatter = std::tan(glm::radians(s.scatter_deg)),
            .light = {},
            .free_heights = s.heights == Settings::Heights::free,

@@ -38,6 +38,7 @@ struct Illumination {
   std::vector<glm::dvec4> lamp_places; ///< Lamp::places; empty: a point, or parallel light
   glm::dmat3 lamp_covariance{0};       ///< of its places, in mm^2: points_of_places
   LightPoints points{}, few_points{};  ///< of the lamp's places
+  double sun_radius = 0;               ///< of the sun, where the settings do not say it: Layout::sun_radius
   /// The light on each facet. None: parallel light falls straight on a rectangle and is the same on all facets.
   std::optional<std::vector<Incoming>> facets;
 };
@@ -60,7 +61,7 @@ struct Layout {
   std::vector<double> frames;       ///< distances of further screens, which only the judge looks at; ascending
   std::optional<std::vector<double>> weights;     ///< weight of each receiver's picture; none: they count alike
   std::optional<std::vector<glm::dvec2>> offsets; ///< each receiver's middle from the z axis; none: all are on it
-  double sun_radius = 0;                          ///< tangent of half the sun's angular diameter
+  double sun_radius = 0;                          ///< of every light: tangent of half its disc's angular diameter
   double scatter = 0;                             ///< standard deviation of a slope, along x and along y
   Illumination light;
 
@@ -84,7 +85,12 @@ struct Layout {
   /// Whether p is outside a round object's outline.
   bool is_beside(const glm::dvec2& p) const { return round && glm::length(p / size) > 0.5; }
   /// Whether light has a width, or many wavelengths.
-  bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum || has_area(); }
+  bool blurs() const {
+    return disc(light) > 0 || scatter > 0 || spectrum || has_area() ||
+           std::ranges::any_of(own_lights, [this](const Illumination& l) { return disc(l) > 0; });
+  }
+  /// Tangent of half the angular diameter of a light's disc.
+  double disc(const Illumination& of) const { return std::max(sun_radius, of.sun_radius); }
   bool has_area() const {
     return !light.lamp_places.empty() ||
            std::ranges::any_of(own_lights, [](const Illumination& l) { return !l.lamp_places.empty(); });

@@ -193,6 +193,7 @@ Illumination make_illumination(Layout layout, const Light& light, const Location
     straight.tilt_deg = glm::degrees(std::asin(glm::length(sines)));
     straight.turn_deg = glm::degrees(std::atan2(sines.y, sines.x));
     layout = tilted(layout, straight, where / "place" / "hour");
+    if (!settings.sun_deg) layout.light.sun_radius = std::tan(glm::radians(scene::sun_angular_diameter_deg / 2));
   } else if (light.type == Light::Type::parallel)
     layout = tilted(layout, light, where / "tilt_deg");
   else

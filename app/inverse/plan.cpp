@@ -42,7 +42,7 @@ std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l, std
                     : chosen},
           {"blur", blurred,
            blurred ? "the size of a lamp or of the sun's disc, a rough surface or dispersion, in every footprint"
-                   : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
+                   : "the light has no disc (inverse.sun_deg), scatter_deg is 0, and there is one index"},
           {"smoothing", assign && l.smoothing > 0,
            !assign           ? "the method 'assign' alone has it"
            : l.smoothing > 0 ? "facets unlike their neighbours cost something"

@@ -49,8 +49,8 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
 }
 
 void check_light(const Light& light, const Settings& s, const std::string& pointer, const Where& where) {
-  if ((light.type == Light::Type::area || light.type == Light::Type::mesh) && s.sun_deg > 0)
-    throw bad_input(where("/inverse/sun_deg"), fmt::format("is {} degrees, and a lamp has a size", s.sun_deg),
+  if ((light.type == Light::Type::area || light.type == Light::Type::mesh) && s.sun_deg.value_or(0) > 0)
+    throw bad_input(where("/inverse/sun_deg"), fmt::format("is {} degrees, and a lamp has a size", *s.sun_deg),
                     fmt::format("expected 0 with a light of type {}", preset::word(light.type)), "remove it");
   if (light.type == Light::Type::sun && !preset::days_since_2000(light.place.date))
     throw bad_input(where(preset::child(preset::child(pointer, "place"), "date")),

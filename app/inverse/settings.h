@@ -113,10 +113,10 @@ struct Settings {
   double wavelength_nm = 550;         ///< at which the index is taken, without light.spectrum
   double band_nm = 0;                 ///< width of the light's band about it
   Light light;
-  double front_azimuth_deg = 180; ///< where the front looks, for a light of type sun: 0 is north, 90 east
-  double front_elevation_deg = 0; ///< above the horizon: 0 is an upright pane, 90 a plate that lies with its front up
-  double sun_deg = 0;             ///< diameter of the sun's disc
-  double scatter_deg = 0;         ///< standard deviation of the directions that a rough surface gives one ray
+  double front_azimuth_deg = 180;  ///< where the front looks, for a light of type sun: 0 is north, 90 east
+  double front_elevation_deg = 0;  ///< above the horizon: 0 is an upright pane, 90 a plate that lies with its front up
+  std::optional<double> sun_deg{}; ///< diameter of the light's disc; without: of the sun its own, of other light 0
+  double scatter_deg = 0;          ///< standard deviation of the directions that a rough surface gives one ray
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
   std::array<int, 2> cells{64, 64};                   ///< cells of every receiver, across and down
   int frames = 0;                                     ///< pictures between a receiver and the next one

@@ -39,7 +39,8 @@ typedef struct {
   float steepest; // the largest gradient of a facet
   float usable;   // largest slope of light that falls straight on
   float one_over_straight; // one over the part of the light that a facet lets through without bending it
-  float sun_radius, scatter;
+  float sun_radius[MOST_LIGHTS]; // of each light's disc: in the order of `points`
+  float scatter;
   float spreads; // a lamp: one over its distance, as light sees it in the object; 0: no light is a lamp's
   int free_heights;
   // The beams that stand for light with a band or a width.
@@ -131,7 +132,7 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceFront) == 128 && sizeof(DeviceWayOut) == 48 && sizeof(DeviceJudgeLaunch) == 24);
 static_assert(sizeof(DeviceBatch) == 32);
-static_assert(sizeof(DeviceLayout) == 3632 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
+static_assert(sizeof(DeviceLayout) == 3696 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
 } // namespace nephroid::shared
 #endif
 

@@ -81,7 +81,7 @@ typedef struct {
   float2 middle, sines;
   float4 spread; // column by column
   float3 lamp;   // DeviceIncoming
-  float power, height;
+  float power, height, sun; // sun: radius of the light's disc
   global const DeviceIncoming* all; // light on all facets
 } Facet;
 
@@ -104,6 +104,7 @@ static inline Facet facet_at(global const DeviceLayout* layout, global const Dev
                  (float3)(0.0f),
                  1.0f,
                  heights[index],
+                 layout->sun_radius[0],
                  incoming};
 #if NEPHROID_INCOMING
   put_light(&facet, incoming[index]);
@@ -184,7 +185,7 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 #if NEPHROID_SPREAD
   // The disc is across the light. With its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
   const float2 s = facet->sines;
-  const float sun = 0.5f * layout->sun_radius, shrinks = 1.0f / (1.0f + sqrt(1.0f - dot(s, s))),
+  const float sun = 0.5f * facet->sun, shrinks = 1.0f / (1.0f + sqrt(1.0f - dot(s, s))),
               rough = layout->scatter * layout->scatter;
   const float2 x = sun * (change.by_sine_x * (1.0f - s.x * s.x * shrinks) - change.by_sine_y * s.x * s.y * shrinks),
                y = sun * (change.by_sine_y * (1.0f - s.y * s.y * shrinks) - change.by_sine_x * s.x * s.y * shrinks);
@@ -232,6 +233,7 @@ static inline float3 slope_behind(float2 g, float n, float2 sines) {
 static inline Facet in_light(global const DeviceLayout* layout, const Facet* facet, int light) {
   Facet lit = *facet;
   put_light(&lit, facet->all[(light * layout->rows + facet->row) * layout->columns + facet->column]);
+  lit.sun = layout->sun_radius[light];
   return lit;
 }
 

@@ -14,7 +14,7 @@ static inline size_t rimmed_at(global const DeviceLayout* layout, int receiver, 
 static inline Beam flat_beam(global const DeviceLayout* layout, DeviceReceiver receiver, int axis) {
   const float distance = receiver.distance;
   const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * receiver.spreads),
-              sun = 0.5f * layout->sun_radius,
+              sun = 0.5f * layout->sun_radius[receiver.light],
               blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter +
                                               receiver.lamp * receiver.lamp));
   const float cell = axis == 0 ? layout->cell_x : layout->cell_y;

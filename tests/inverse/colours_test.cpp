@@ -194,6 +194,10 @@ TEST(Colours, AreSeenByTheSpectralEngineToo) {
   preset::Preset grey = lit_by(R"("F11")", {R"(inverse.receivers.0.picture={"type": "ring"})"});
   settings(grey).light.spectrum.reset();
   EXPECT_NEAR(view_of(grey).scene.materials.at("glass").dispersion.n, index_at_nm(550), 1e-9);
+  settings(grey).band_nm = 60;
+  const preset::Preset band = view_of(grey);
+  EXPECT_EQ(band.scene.lights.at(0).spectrum.table, (std::vector<std::array<double, 2>>{{520, 1}, {580, 1}}));
+  EXPECT_THAT(band.scene.materials.at("glass").dispersion.file, HasSubstr("N-SF11"));
 }
 
 TEST(Colours, ThatCannotBeAreRefused) {

@@ -72,4 +72,29 @@ TEST(GlassViewMask, IsNotThereWhereNothingPasses) {
   for (const auto& strips : m.strips) EXPECT_TRUE(strips.empty());
 }
 
+preset::Preset view_of(const std::string& settings) {
+  const preset::Preset preset = preset::parse_preset(
+      R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {)" + settings + receivers + "}",
+      "p.json");
+  const inverse::InversePlan plan = inverse::make_plan(preset);
+  return preset::parse_preset(inverse::glass_view(plan.design->layout, plan.design->targets, preset), "view.json");
+}
+
+// What blurred the judge's light blurs the view's: the disc, a rough surface as a wider one, and a band's colours.
+TEST(GlassViewBlur, IsThatOfTheJudge) {
+  const auto disc = [](const std::string& settings) {
+    return view_of(settings).scene.lights.at(0).angular_diameter_deg;
+  };
+  EXPECT_EQ(disc(""), 0);
+  EXPECT_NEAR(disc(R"("sun_deg": 0.53, )"), 0.53, 1e-9);
+  EXPECT_NEAR(disc(R"("scatter_deg": 0.1, )"), 0.4, 1e-5);
+  EXPECT_NEAR(disc(R"("scatter_deg": 0.1, "sun_deg": 0.3, )"), 0.5, 1e-5);
+  EXPECT_NEAR(disc(R"("front_elevation_deg": 37.5, "light": {"type": "sun", "place": {"latitude_deg": 52.5,
+    "longitude_deg": 13.4, "date": "2026-03-20", "utc_offset_h": 1, "hour": 12}}, )"),
+              0.533, 1e-9);
+  EXPECT_THAT(view_of(R"("scatter_deg": 0.1, )").description, testing::HasSubstr("a wider sun stands for the scatter"));
+  EXPECT_EQ(disc(R"("scatter_deg": 6, )"), 10);
+  EXPECT_THAT(view_of(R"("scatter_deg": 6, )").description, testing::HasSubstr("degrees would blur more than"));
+}
+
 } // namespace nephroid::glass_view_test

@@ -153,11 +153,18 @@ TEST(OwnLights, AMeshIsFoundBesideThePreset) {
   EXPECT_EQ(layout.light.lamp_places.size(), 4096);
 }
 
+/// light: whose it is.
+std::string sun(const char* hour, const char* light = "inverse.light") {
+  return light + std::string(R"(={"type": "sun", "place": {"latitude_deg": 52.5, "longitude_deg": 13.4, )") +
+         R"("date": "2026-03-20", "utc_offset_h": 1, "hour": )" + hour + "}}";
+}
+
 TEST(OwnLights, DeviceAndHostSendTheSameLight) {
   const LampMesh lamp = bar(), away = strip();
   for (const preset::Overrides& of :
        {preset::Overrides{},
         {"inverse.sun_deg=0.53"},
+        {sun("12", "inverse.receivers.1.light"), "inverse.front_elevation_deg=37.5", "inverse.cells=[64, 64]"},
         {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=null"},
         {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=" + away.light(), "inverse.scatter_deg=0.3"}}) {
     const Layout l = layout_of(of);
@@ -236,11 +243,6 @@ TEST(OwnLights, AFrameIsInALampBetweenThoseOfItsReceivers) {
   for (const std::size_t end : {0u, 1u}) EXPECT_GT(apart(plain[0], mixed[end]), 0.03) << end;
 }
 
-std::string sun(const char* hour) {
-  return std::string(R"(inverse.light={"type": "sun", "place": {"latitude_deg": 52.5, "longitude_deg": 13.4, )") +
-         R"("date": "2026-03-20", "utc_offset_h": 1, "hour": )" + hour + "}}";
-}
-
 // At the equinox the sun stands 90 - 52.5 degrees high at local noon, .89 h - .12 h before the clock's by longitude and
 // the equation of time.
 TEST(OwnLights, TheNoonSunFallsStraightOnAFrontThatFacesIt) {
@@ -248,6 +250,29 @@ TEST(OwnLights, TheNoonSunFallsStraightOnAFrontThatFacesIt) {
   EXPECT_LT(glm::length(l.light.sines), 0.01);
   EXPECT_LT(layout_of({sun("11.23"), "inverse.front_elevation_deg=37.5"}).light.sines.x, -0.2); // goes to the west
   EXPECT_LT(layout_of({sun("12.23"), "inverse.front_elevation_deg=15"}).light.sines.y, -0.3);   // and down
+}
+
+// Wherever it is named, and no light beside it. What the settings say is of all lights.
+TEST(OwnLights, TheSunHasItsDisc) {
+  const auto discs = [](const preset::Overrides& more) {
+    preset::Overrides of{sun("12", "inverse.receivers.1.light"), "inverse.front_elevation_deg=37.5"};
+    of.insert(of.end(), more.begin(), more.end());
+    const Layout l = layout_of(of);
+    return std::array{l.disc(l.light_on(0)), l.disc(l.light_on(1)), l.blurs() ? 1.0 : 0.0};
+  };
+  const double half = std::tan(glm::radians(0.533 / 2)), wide = std::tan(glm::radians(0.5));
+  EXPECT_THAT(discs({}), testing::ElementsAre(0, testing::DoubleEq(half), 1));
+  EXPECT_THAT(discs({"inverse.sun_deg=0"}), testing::Each(0));
+  EXPECT_THAT(discs({"inverse.sun_deg=1"}), testing::ElementsAre(testing::DoubleEq(wide), testing::DoubleEq(wide), 1));
+  const auto judged = [](const char* more) {
+    const Layout l = layout_of({sun("12"), "inverse.front_elevation_deg=37.5", "inverse.receivers.0.light=null",
+                                "inverse.receivers.1.light=null", "inverse.receivers.1.distance_mm=2000", more});
+    Judge judge(test::shared_context(), l, make_solid(l, std::vector<glm::dvec2>(l.facet_count())), 1);
+    while (!judge.finished()) judge.advance();
+    return judge.light(1);
+  };
+  EXPECT_EQ(judged("inverse.cells=[16, 16]"), judged("inverse.sun_deg=0.533"));
+  EXPECT_GT(apart(judged("inverse.cells=[16, 16]"), judged("inverse.sun_deg=0")), 0.02);
 }
 
 TEST(OwnLights, BadLightIsRefused) {

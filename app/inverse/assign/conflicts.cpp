@@ -74,7 +74,7 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const 
                                                       : 0;
   const auto parts = [&](int axis, int at) { // a beam on the middle of a cell: its first cell, and its part on each
     const double cell = layout_.cell()[axis], width = layout_.facet()[axis] * (1 + lamp) / cell,
-                 blur = blur_width(layout_, distance) / cell;
+                 blur = blur_width(layout_, receiver) / cell;
     const Beam beam{at + 0.5, width, blur};
     const int reach = static_cast<int>(std::min<double>(cells[axis], std::ceil((width + blur) / 2))),
               first = std::max(0, at - reach);

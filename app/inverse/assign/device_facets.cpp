@@ -119,7 +119,7 @@ shared::DeviceLayout device_layout(const Layout& l) {
                             .steepest = number(l.steepest),
                             .usable = number(usable_slope(l)),
                             .one_over_straight = number(1 / transmitted({0, 0}, l.n)),
-                            .sun_radius = number(l.sun_radius),
+                            .sun_radius = {},
                             .scatter = number(l.scatter),
                             .spreads = number(most_spread(l)),
                             .free_heights = l.free_heights,
@@ -147,6 +147,7 @@ shared::DeviceLayout device_layout(const Layout& l) {
     }
   };
   for (std::size_t k = 0; k <= l.own_lights.size(); ++k) {
+    made.sun_radius[k] = number(l.disc(l.numbered(k)));
     put_points(points_of(l.numbered(k), false), made.points[k].at, made.points[k].left);
     put_points(points_of(l.numbered(k), true), made.points[k].few_at, made.points[k].few_left);
   }

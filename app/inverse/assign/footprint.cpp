@@ -104,7 +104,7 @@ Blur blur_of(const Layout& layout, const Illumination& light, const Incoming& in
   if (!layout.blurs()) return blur;
   const SlopeChange change = slope_change(slope, layout.n, in.sines);
   // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
-  const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
+  const double sun = layout.disc(light) / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   const glm::dmat2 disc =
       sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
   const glm::dmat2 of_lamp = change.by_sines * in.spread, lamp = of_lamp * root_of_places(light, in.sines),
@@ -175,8 +175,9 @@ double part_before(const Beam& beam, double t) {
   return std::clamp(sum / (a * b), 0.0, 1.0);
 }
 
-double blur_width(const Layout& layout, double distance) {
-  const double sun = layout.sun_radius * distance / 2, rough = layout.scatter * distance;
+double blur_width(const Layout& layout, std::size_t receiver) {
+  const double distance = layout.distances[receiver], sun = layout.disc(layout.light_on(receiver)) * distance / 2,
+               rough = layout.scatter * distance;
   return std::sqrt(12 * (sun * sun + rough * rough));
 }
 

@@ -13,9 +13,9 @@ struct Beam {
 /// The part of a beam that is left of t.
 double part_before(const Beam& beam, double t);
 
-/// The width in millimetres, on a receiver at this distance, of a box with the variance of the sun's disc and rough
-/// surfaces behind a flat facet. A disc of radius r has r^2 / 4 along an axis, a box of width b has b^2 / 12.
-double blur_width(const Layout& layout, double distance);
+/// The width in millimetres, on a receiver, of a box with the variance of the sun's disc and rough surfaces behind a
+/// flat facet. A disc of radius r has r^2 / 4 along an axis, a box of width b has b^2 / 12.
+double blur_width(const Layout& layout, std::size_t receiver);
 
 /// In cells: how long the pieces of a spectrum's line of light may be; how wide a box with a disc's variance.
 inline constexpr double piece_in_cells = 0.25, wide_in_cells = 0.5;
