@@ -43,6 +43,7 @@ inline void add_file_and_edit(Effects& all) {
   all["New scene"] = {{}, begins("spectral")};
   all["New scene: environment"] = {{}, begins("environment")};
   all["New scene: inverse"] = {{}, begins("inverse")};
+  all["New scene: empty"] = {{}, [](Desk& d) { return d.preset().source.empty() && d.scene().objects.empty(); }};
   all["Open..."] = {{}, asks(Question::open)};
   all["Open history..."] = {{}, asks(Question::open_history)};
   all["Open pictures..."] = {{}, asks(Question::open_pictures)};
@@ -79,6 +80,21 @@ inline void add_file_and_edit(Effects& all) {
   all["Copy camera as JSON"] = {{}, copies("\"position\"")};
   all["Copy camera as --set"] = {{}, copies("--set ")};
   all["Copy plan as JSON"] = {{}, copies("n is extrapolated")};
+}
+
+inline void add_additions(Effects& all) {
+  const auto selects = [](Selection::Kind kind) {
+    return [kind](Desk& d) {
+      const Selection now = d.view_state().selection;
+      return now.kind == kind && d.workbench.edits()->undo_label().starts_with("Add ") &&
+             (kind != Selection::Kind::object || now.index == d.before.preset.scene.objects.size());
+    };
+  };
+  for (const char* body : {"Add sphere", "Add glass", "Add table"}) all[body] = {{}, selects(Selection::Kind::object)};
+  for (const char* light : {"Add lamp", "Add sun"}) all[light] = {{}, selects(Selection::Kind::light)};
+  all["Add mesh..."] = {{}, asks(Question::add_mesh)};
+  all["Add sky"] = {{}, selects(Selection::Kind::environment)};
+  all["Add camera"] = {{}, selects(Selection::Kind::camera)};
 }
 
 /// Nudges the lamp: by how much along an axis, in sign.
@@ -302,6 +318,7 @@ inline void add_window_and_help(Effects& all) {
 inline Effects action_effects() {
   Effects all;
   effects::add_file_and_edit(all);
+  effects::add_additions(all);
   effects::add_select_and_camera(all);
   effects::add_animation(all);
   effects::add_run_and_view(all);

@@ -9,7 +9,7 @@
 namespace nephroid::test {
 
 inline constexpr const char* preset_text = R"({
-  "name": "Test", "engine": "spectral", "unit": "m",
+  "name": "Test", "engine": "spectral", "unit": "m", "white": 1,
   "scene": {
     "camera": {"position": [0, 0, 4], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40, "resolution": [64, 48]},
     "materials": {"wall": {"type": "diffuse", "reflectance": 0.5}},

@@ -126,7 +126,7 @@ TEST_F(PanelsTest, WhatIsReadForLongIsNotWaitedFor) {
   edit([](preset::Preset& p) { p.scene.camera.position[2] = 2; });
   frames(10);
   EXPECT_EQ(workbench.run().preparation(), "reading bunny.obj") << "another camera waits for the same files";
-  press(ImGuiKey_Escape);
+  press(ImGuiKey_F5, ImGuiMod_Shift);
   ASSERT_TRUE(until(job::State::cancelled));
   press(ImGuiKey_F5);
   ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }));

@@ -292,7 +292,7 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
   open(R"({"engine": "environment", "scene": {"camera": {}}})");
   visit(schema["properties"]["environment"], "/environment", "Preset", "Preset.environment");
   open(
-      R"({"engine": "environment", "scene": {"camera": {}}, "animation": {"tracks": [{"path": "seed", "keys": [{"frame": 0, "value": 1}]}]}})");
+      R"({"engine": "environment", "white": 1, "scene": {"camera": {}}, "animation": {"tracks": [{"path": "seed", "keys": [{"frame": 0, "value": 1}]}]}})");
   visit(schema["properties"]["animation"], "/animation", "Preset", "Preset.animation");
   std::vector<std::string> left;
   std::ranges::set_symmetric_difference(edited, leaves(), std::back_inserter(left));

@@ -14,7 +14,7 @@ namespace nephroid::test {
 inline std::string ball_text(const std::string& engine = "spectral") {
   return R"({
   "name": "Ball", "engine": ")" +
-         engine + R"(", "unit": "m",
+         engine + R"(", "unit": "m", "white": 1,
   "scene": {
     "camera": {"position": [0, 0, 4], "target": [0, 0, 0], "up": [0, 1, 0], "fov_deg": 40, "resolution": [64, 48]},
     "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "wall": {"type": "diffuse", "reflectance": 0.5}},

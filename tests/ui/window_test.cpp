@@ -135,7 +135,7 @@ TEST_F(WindowEvents, AreFollowed) {
     window.until(state, [&] { return window.states().back().name == state; });
   };
   comes_to("running");
-  window.key("Escape");
+  window.key("shift+F5");
   comes_to("cancelled");
   const test::Ended ended = window.quit();
   ASSERT_EQ(ended.exit_code, 0) << ended.err;

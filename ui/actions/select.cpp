@@ -15,7 +15,6 @@ using Tool = Handles::Tool;
 
 constexpr double nudge_gesture_s = 0.6; ///< a longer rest starts a new entry to undo
 
-bool has_things(C c) { return c.preset() && has_scene(*c.preset()); }
 bool has_selection(C c) { return c.selection() != Selection{}; }
 std::string nothing_selected(C) { return "nothing is selected"; }
 

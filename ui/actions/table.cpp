@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table, with all menus but those that have files of their own: "Select", "Animation", "View" and "Pictures".
+// The table, with all menus but those that have files of their own: "Add", "Select", "Animation", "View" and
+// "Pictures".
 #include "ui/actions/table.h"
 
 #include "base/error.h"
@@ -39,6 +40,10 @@ std::vector<Action> new_scene_actions() {
                        fmt::format("{}, for the engine {}", scene.what, name_of(*engine)), always,
                        [preset = scene.preset](C c) { c.push(command::New{preset}); }});
   }
+  actions.push_back({"New scene: empty", 0, "Nothing but a camera", always, [](C c) {
+                       c.push(command::New{fmt::format(R"({{"name": "untitled", "engine": "{}", "unit": "m"}})",
+                                                       name_of(*engine::engines().front()))});
+                     }});
   return actions;
 }
 
@@ -50,8 +55,8 @@ std::vector<Action> file_actions() {
        ask<Question::open_history>},
       {"Open pictures...", 0, "Pictures of any program (.exr, .hdr, .png, ...), to look at and to compare", always,
        ask<Question::open_pictures>},
-      {"Open map...", 0, "A latitude-longitude picture (.hdr, .exr) in place of the environment",
-       [](C c) { return c.preset() && has_scene(*c.preset()); }, ask<Question::open_map>,
+      {"Open map...", 0, "A latitude-longitude picture (.hdr, .exr) in place of the environment", has_things,
+       ask<Question::open_map>,
        [](C c) { return std::string(c.preset() ? "this preset has no scene" : "no preset is open"); }},
       {"Reopen the last session", 0, "The session of the window that was closed or killed last",
        [](C c) { return c.has_earlier_session; }, push<command::ReopenSession>,
@@ -152,7 +157,7 @@ std::vector<Action> run_actions() {
       {"Start again", ImGuiKey_F5, "Start the run from its beginning", can_restart, push<command::Restart>,
        why_no_restart},
       {"Pause", ImGuiKey_Space, "Hold the run, or let it go on", works, pause},
-      {"Cancel", ImGuiKey_Escape, "End the run; its picture stays", works, push<command::Cancel>},
+      {"Cancel", shift | ImGuiKey_F5, "End the run; its picture stays", works, push<command::Cancel>},
       {"Pin this run", ImGuiKey_P, "Keep its history and its picture, to compare later runs with", has_picture,
        push<command::PinRun>},
       {"Start the sweep", 0, "Run the preset with each combination of the values that are swept; each result is pinned",
@@ -243,6 +248,7 @@ std::span<const Action> actions() {
     };
     add("File", file_actions());
     add("Edit", edit_actions());
+    add("Add", add_actions());
     add("Select", select_actions());
     add("Camera", camera_actions());
     add("Animation", animation_actions());

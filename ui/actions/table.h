@@ -7,6 +7,7 @@
 
 namespace nephroid::ui {
 
+std::vector<Action> add_actions();
 std::vector<Action> select_actions();
 std::vector<Action> animation_actions();
 std::vector<Action> view_actions();
@@ -17,6 +18,7 @@ using C = const Context&;
 // What several menus ask.
 inline bool always(C) { return true; }
 inline bool has_preset(C c) { return c.preset() != nullptr; }
+inline bool has_things(C c) { return c.preset() && has_scene(*c.preset()); }
 inline bool has_picture(C c) { return c.run.snapshot() != nullptr; }
 
 inline Action repeating(Action action) {

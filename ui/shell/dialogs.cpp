@@ -26,6 +26,7 @@ const DialogKind& kind_of_dialog(Question question) {
   const auto pin = [](const std::string& name) { return Command(command::PinFile{name}); };
   const auto show = [](const std::string& name) { return Command(command::PinFile{name, true}); };
   const auto surround = [](const std::string& name) { return Command(command::OpenMap{name}); };
+  const auto add = [](const std::string& name) { return Command(command::AddMesh{name}); };
   static const DialogKind kinds[] = {
       {Question::open, "Open a preset", "", {".json"}},
       {Question::open_history,
@@ -49,6 +50,13 @@ const DialogKind& kind_of_dialog(Question question) {
        "a latitude-longitude picture",
        "Pictures of all directions (.hdr, .exr). Dropping one on the window does the same.",
        surround},
+      {Question::add_mesh,
+       "Add a mesh",
+       "",
+       {".obj", ".ply", ".stl", ".3ds"},
+       "path of a mesh",
+       "It is scaled to fit the picture. Dropping a mesh on the window does the same.",
+       add},
       {Question::save_preset, "Save the preset as", "-edited.nephroid.json", {".json"}},
       {Question::save_picture, "Save the picture as", ".png", {".png", ".exr"}},
       {Question::save_report, "Write a report over the runs", "-report.html", {".html"}},

@@ -49,7 +49,7 @@ std::span<const MouseHabit> mouse_habits() {
       {"Drop a map (.hdr, .exr) elsewhere", "Put it in place of the environment"},
       {"Drop another picture (.png, .jpg, .tif) elsewhere",
        "Engine inverse: the object casts it, in place of the first drawing; else open it"},
-      {"Drop a dispersion file (.yml)", "Load it into the glass of the panel Dispersion"},
+      {"Drop a dispersion file (.yml, .agf)", "Load it into the glass of the panel Dispersion"},
       {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
   };
   return habits;
@@ -116,10 +116,12 @@ void run_shortcuts(const Context& context, bool dialog, bool help) {
     if (io.NavVisible && action.shortcut == ImGuiKey_Space) continue;
     // The start page begins in its search: there Ctrl+O still opens. In a preset's fields Ctrl+S would save without
     // what is being typed.
-    const bool types =
-        io.WantTextInput && (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
+    const bool is_function_key = key >= ImGuiKey_F1 && key <= ImGuiKey_F12; // no text has one
+    const bool types = io.WantTextInput && !is_function_key &&
+                       (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
     if (elsewhere || types || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
     if (action.enabled(context)) {
+      if (is_function_key) ImGui::ClearActiveID(); // what is being typed counts
       action.run(context);
       taken = action.shortcut;
     } else if (action.why_not)

@@ -81,6 +81,7 @@ enum class Question {
   open_history,
   open_pictures,
   open_map,
+  add_mesh,
   save_preset,
   save_picture,
   unsaved,
@@ -93,7 +94,7 @@ namespace command {
 
 /// Opens a preset file or a shipped preset by its name. Asks first where there are unsaved changes, unless sure. A
 /// run's folder or a table (.csv) is pinned as by PinFile, and the run's preset opens where none is open. Dispersion
-/// data (.yml) is loaded as by LoadDispersion. A map (.exr, .hdr) becomes the environment. A picture goes to the
+/// data (.yml, .agf) is loaded as by LoadDispersion. A map (.exr, .hdr) becomes the environment. A picture goes to the
 /// engine, or is pinned where the engine takes none. A mesh becomes an object, glTF a preset of its own.
 struct Open {
   std::string name;
@@ -101,6 +102,10 @@ struct Open {
 };
 /// Makes a latitude-longitude picture the environment, in one edit.
 struct OpenMap {
+  std::string file;
+};
+/// Makes a mesh an object of the scene, once it is read in the background.
+struct AddMesh {
   std::string file;
 };
 /// Opens a scene to begin with, which has no file yet. Asks first as Open does.
@@ -292,17 +297,18 @@ struct Quit {
 } // namespace command
 
 using Command =
-    std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::ShowFrame,
-                 command::Play, command::RecordFilm, command::StopFilm, command::StartSweep, command::StopSweep,
-                 command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause,
-                 command::SetViewSettings, command::Flip, command::CompareWith, command::ShowPicture, command::Arrange,
-                 command::MoveSplit, command::ShowDifference, command::ShowLayer, command::InspectPixel,
-                 command::SelectRegion, command::ShowLines, command::PinRun, command::PinFile, command::ChangePin,
-                 command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion,
-                 command::Select, command::SetHandles, command::Nudged, command::SetBookmarks, command::Ask,
-                 command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport, command::Dismiss,
-                 command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout,
-                 command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
+    std::variant<command::Open, command::OpenMap, command::AddMesh, command::New, command::Edit, command::SetSweep,
+                 command::ShowFrame, command::Play, command::RecordFilm, command::StopFilm, command::StartSweep,
+                 command::StopSweep, command::EndGesture, command::Undo, command::Redo, command::Restart,
+                 command::Cancel, command::Pause, command::SetViewSettings, command::Flip, command::CompareWith,
+                 command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
+                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::ShowLines, command::PinRun,
+                 command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial,
+                 command::LoadDispersion, command::Select, command::SetHandles, command::Nudged, command::SetBookmarks,
+                 command::Ask, command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport,
+                 command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp,
+                 command::ResetLayout, command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report,
+                 command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -6,6 +6,7 @@
 #include "engine/engine.h"
 #include "preset/animation.h"
 #include "preset/change_engine.h"
+#include "preset/settings_type.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -106,7 +107,8 @@ void Document::update() {
   const auto white = run_.fitted_white();
   if (!white || !edits_ || edits_->current().white) return;
   edits_->fit_white(*white);
-  services_.messages.note(fmt::format("white {} fits the first picture", *white));
+  if (preset::has_white(edits_->current()))
+    services_.messages.note(fmt::format("white {} fits the first picture", *white));
 }
 
 void Document::carry_out(const command::Edit& c) {
@@ -197,6 +199,15 @@ void Document::carry_out(const command::OpenMap& c) {
   const std::string name = std::filesystem::path(c.file).filename().string();
   edit({"surround with " + name, surrounded(edits_->current(), c.file)});
   services_.messages.note(name + " is the environment");
+  services_.follow_ups.push_back(command::Ask{});
+}
+
+/// Throws bad_input where the file does not exist or is no mesh: the dialog stays open then.
+void Document::carry_out(const command::AddMesh& c) {
+  if (!edits_) return;
+  if (kind_of(c.file) != FileKind::mesh) throw bad_input(c.file, "is no mesh", "expected a file .obj, .ply or .stl");
+  if (!is_there(c.file)) throw bad_input(c.file, "there is no such file");
+  read_mesh(c.file);
   services_.follow_ups.push_back(command::Ask{});
 }
 

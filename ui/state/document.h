@@ -43,6 +43,7 @@ public:
   void carry_out(const command::Select& c);
   void carry_out(const command::InspectPixel& c);
   void carry_out(const command::OpenMap& c);
+  void carry_out(const command::AddMesh& c);
   void carry_out(const command::LoadDispersion& c);
 
 private:

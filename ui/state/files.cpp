@@ -10,6 +10,7 @@
 #include "preset/read.h"
 #include "run/write_run.h"
 #include "scene/mesh.h"
+#include "ui/state/additions.h"
 #include "ui/state/tone.h"
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ struct KnownKind {
 };
 
 constexpr std::array kinds{
-    KnownKind{FileKind::dispersion, ".yml .yaml ", "is dispersion data",
+    KnownKind{FileKind::dispersion, ".yml .yaml .agf ", "is dispersion data",
               "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
     KnownKind{FileKind::scene, ".gltf .glb .xml .pbrt ", "is a scene",
               "drop it on the window, which makes a preset of it, or run `nephroid import {} -o PRESET.json`"},
@@ -93,18 +94,11 @@ bool may_be_object(const fs::path& file) {
 
 constexpr double part_of_view = 0.4; ///< the new object's longest edge, as a part of what the camera sees at its target
 
-/// The shorter side of the visible rectangle in the plane of the camera's target.
-double view_at_target(const preset::Camera& camera) {
-  return preset::height_at_target(camera) *
-         std::min(1.0, static_cast<double>(camera.resolution[0]) / camera.resolution[1]);
-}
-
 std::string material_for(preset::Scene& scene) {
   preset::Preset of;
   of.scene = scene;
   if (std::string glass = shown_dielectric(of, {}); !glass.empty()) return glass;
-  if (scene.materials.empty()) scene.materials["glass"].type = preset::Material::Type::dielectric;
-  return scene.materials.begin()->first;
+  return scene.materials.empty() ? glass_of(scene) : scene.materials.begin()->first;
 }
 
 } // namespace
@@ -209,17 +203,18 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
   const glm::dvec3 edges = mesh.box.high - mesh.box.low;
   const double longest = std::max({edges.x, edges.y, edges.z});
   const double factor = with_digits(part_of_view * view_at_target(scene.camera) / longest, 3);
-  const glm::dvec3 middle = 0.5 * mesh.box.low + 0.5 * mesh.box.high;
+  const glm::dvec3 middle = 0.5 * mesh.box.low + 0.5 * mesh.box.high, foot{middle.x, mesh.box.low.y, middle.z};
+  const glm::dvec3 place = free_place(preset, factor * edges);
   const double size = factor * longest;
   const int decimals = size > 0 && std::isfinite(size) ? 3 - static_cast<int>(std::floor(std::log10(size)))
                                                        : 0; // a thousandth of the size
   for (std::size_t i = 0; i < 3; ++i) {
     object.transform.scale[i] = factor;
-    object.transform.translate[i] = rounded(scene.camera.target[i] - factor * middle[static_cast<int>(i)], decimals);
+    object.transform.translate[i] = rounded(place[static_cast<int>(i)] - factor * foot[static_cast<int>(i)], decimals);
   }
   std::string note =
-      fmt::format("{} is the object '{}' of '{}', scaled by {:g} to {:.3g} {}, at the camera's target",
-                  mesh.file.filename().string(), object.name, object.material, factor, size, unit_word(preset));
+      fmt::format("{} is the object '{}' of '{}', scaled by {:g} to {:.3g} {}", mesh.file.filename().string(),
+                  object.name, object.material, factor, size, unit_word(preset));
   if (body && !mesh.closed) note += "; it is not closed: light that enters may never leave";
   scene.objects.push_back(std::move(object));
   preset::check(preset, [&](const std::string& pointer) { return Location(mesh.file.string(), pointer); });

@@ -65,7 +65,7 @@ DroppedMesh read_dropped_mesh(const std::filesystem::path& file);
 
 /// The preset with the mesh as its last object, and a sentence about it. The material is the first dielectric, else the
 /// first of all, else new glass. The longest edge of the mesh's box becomes 0.4 of what the camera sees at its target;
-/// the box' middle goes there. Throws bad_input where the preset refuses open dielectrics and the mesh would be one.
+/// it stands at free_place(). Throws bad_input where the preset refuses open dielectrics and the mesh would be one.
 struct WithMesh {
   preset::Preset preset;
   std::string note;

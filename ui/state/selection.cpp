@@ -21,9 +21,10 @@ bool has_scene(const preset::Preset& preset) { return engine::engine_of(preset).
 
 Selection in_preset(const Selection& selection, const preset::Preset* preset) {
   if (!preset || !has_scene(*preset)) return {};
-  const bool there = selection.kind == Kind::object  ? selection.index < preset->scene.objects.size()
-                     : selection.kind == Kind::light ? selection.index < preset->scene.lights.size()
-                                                     : selection.kind == Kind::camera;
+  const bool there = selection.kind == Kind::object        ? selection.index < preset->scene.objects.size()
+                     : selection.kind == Kind::light       ? selection.index < preset->scene.lights.size()
+                     : selection.kind == Kind::environment ? preset->scene.environment.has_value()
+                                                           : selection.kind == Kind::camera;
   return there ? selection : Selection{};
 }
 
@@ -45,6 +46,7 @@ std::string name_of(const preset::Preset& preset, const Selection& selection) {
   }
   case Kind::light: return fmt::format("light {} ({})", i + 1, preset::word(preset.scene.lights[i].type));
   case Kind::camera: return "camera's target";
+  case Kind::environment: return "environment";
   case Kind::nothing: break;
   }
   return {};
@@ -55,6 +57,7 @@ std::string unit_word(const preset::Preset& preset) { return std::string(preset:
 std::string pointer_of(const Selection& selection) {
   if (selection.kind == Kind::object) return fmt::format("/scene/objects/{}", selection.index);
   if (selection.kind == Kind::light) return fmt::format("/scene/lights/{}", selection.index);
+  if (selection.kind == Kind::environment) return "/scene/environment";
   return selection.kind == Kind::camera ? "/scene/camera" : "";
 }
 

@@ -11,7 +11,7 @@
 namespace nephroid::ui {
 
 struct Selection {
-  enum class Kind { nothing, object, light, camera };
+  enum class Kind { nothing, object, light, camera, environment };
   Kind kind = Kind::nothing;
   std::size_t index = 0; ///< an index into scene.objects or scene.lights; else 0
   bool operator==(const Selection&) const = default;
@@ -30,10 +30,10 @@ struct Handles {
 bool has_scene(const preset::Preset& preset);
 /// The selection, as far as the preset has it; else, and without a preset (null), nothing.
 Selection in_preset(const Selection& selection, const preset::Preset* preset);
-/// All that can be selected: objects, lights, the camera; empty without a scene.
+/// All that is selected by "Select the next": objects, lights, the camera; empty without a scene.
 std::vector<Selection> selectable(const preset::Preset& preset);
-/// "bunny", "object 2" where it has no name, "light 1 (spot)", "camera's target". The preset must have it. Empty for
-/// nothing.
+/// "bunny", "object 2" where it has no name, "light 1 (spot)", "camera's target", "environment". The preset must have
+/// it. Empty for nothing.
 std::string name_of(const preset::Preset& preset, const Selection& selection);
 /// The preset's unit of length as its file has it: "mm".
 std::string unit_word(const preset::Preset& preset);

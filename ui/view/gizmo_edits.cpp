@@ -103,6 +103,7 @@ std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection
     return preset::has(light.type, LIGHT_HAS_OBJECT) ? std::nullopt : std::optional(light_grip(preset, light));
   }
   case Kind::camera: return GizmoTarget{.at = to_vector(preset.scene.camera.target)};
+  case Kind::environment:
   case Kind::nothing: break;
   }
   return std::nullopt;

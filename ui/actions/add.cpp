@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The menu "Add": new things in the scene, each one edit, and selected.
+#include "ui/actions/table.h"
+#include "ui/state/additions.h"
+
+namespace nephroid::ui {
+namespace {
+
+std::string why_no_things(C c) { return c.preset() ? "this preset has no scene" : "no preset is open"; }
+
+Action add_action(const char* what, const char* help, Thing thing) {
+  const std::string name = std::string("Add ") + what;
+  return {name,
+          0,
+          help,
+          has_things,
+          [name, thing](C c) {
+            Addition added = with_thing(*c.preset(), thing);
+            c.push(command::Edit{name, std::move(added.preset)});
+            c.push(command::Select{added.selection});
+          },
+          why_no_things};
+}
+
+/// The camera before it becomes a bookmark.
+void add_camera(C c) {
+  const preset::Camera camera = camera_on_all(*c.preset());
+  std::vector<Bookmark> bookmarks = c.view_state.bookmarks;
+  bookmarks.push_back({new_bookmark_name(*c.preset(), bookmarks), c.preset()->scene.camera});
+  c.note("the camera before is the bookmark \"" + bookmarks.back().name + "\"");
+  c.push(command::SetBookmarks{std::move(bookmarks)});
+  c.edit("Add camera", [&](preset::Preset& p) { p.scene.camera = camera; });
+  c.push(command::Select{{Selection::Kind::camera, 0}});
+}
+
+} // namespace
+
+std::vector<Action> add_actions() {
+  return {
+      add_action("sphere", "A ball on the ground, where the camera looks", Thing::sphere),
+      add_action("glass", "A ball on the ground, where the camera looks", Thing::glass),
+      add_action("table", "A floor; where there is one, a slab", Thing::table),
+      {"Add mesh...", 0, "An object from a file", has_things, ask<Question::add_mesh>, why_no_things},
+      add_action("lamp", "A point light above the camera's target", Thing::lamp),
+      add_action("sun", "Parallel light from a small disc", Thing::sun),
+      add_action("sky", "Clear sky and sun, today at noon in Crete", Thing::sky),
+      {"Add camera", 0, "One that sees all objects; the old one is bookmarked", has_things, add_camera, why_no_things},
+  };
+}
+
+} // namespace nephroid::ui
