@@ -97,6 +97,15 @@ void refuse_mistyped_verb(const CLI::App& program, const std::string& word) {
   throw bad_input("", fmt::format("unknown verb '{}'", word), did_you_mean(verb), "see nephroid --help");
 }
 
+/// What stands before a verb is for the window, which does not open: it would have no effect.
+void refuse_words_before(const CLI::App& program, const std::string& verb) {
+  for (const CLI::Option* option : program.get_options())
+    if (option->count() > 0)
+      throw bad_input(option->get_positional() ? option->results().front() : option->get_name(),
+                      fmt::format("stands before the verb '{}'", verb), {},
+                      fmt::format("put it after the verb; see nephroid {} --help", verb));
+}
+
 int open_window(const CLI::App& program, const Window& window, const std::vector<std::string>& files) {
   if (!files.empty()) refuse_mistyped_verb(program, files.front());
   if (window.open) return window.open(files);
@@ -120,7 +129,10 @@ int parse_and_run(int argc, const char* const* argv, const Window& window) {
                          add_plate, add_compare, add_report, add_presets, add_import, add_export, add_devices,
                          add_check, add_schema, add_manual, add_completions, add_version})
     add(program, session);
-  for (CLI::App* verb : program.get_subcommands({})) verb->group("Verbs");
+  for (CLI::App* verb : program.get_subcommands({})) {
+    verb->group("Verbs");
+    verb->preparse_callback([&program, verb](std::size_t) { refuse_words_before(program, verb->get_name()); });
+  }
   std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == "help") { // `help VERB` is `VERB --help`
     words.erase(words.begin());

@@ -101,7 +101,8 @@ void add_dispersion(CLI::App& program, Session& session) {
             {{"nephroid dispersion N-BK7 N-SF66", "two glasses at the usual lines"},
              {"nephroid dispersion N-SF66 --nm 486.13,656.27", ""}});
   verb.option("FILE", options->files,
-              {.says = "refractiveindex.info files, or shipped materials by name (N-BK7)", .required = true});
+              {.says = "Files of refractiveindex.info or Zemax (.agf), or shipped materials by name (N-BK7)",
+               .required = true});
   verb.option("--nm", options->nm,
               {.type = "L",
                .says = "Wavelength in nm; may be repeated; default: lines F, e, d, C, and 380 and 780 nm",

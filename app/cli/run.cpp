@@ -6,18 +6,20 @@
 #include "cli/run_target.h"
 #include "cli/verb.h"
 #include "mpi/ranks.h"
-#include "preset/animation.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "preset/settings_type.h"
 #include "report/report.h"
 #include "run/exposure.h"
 #include "run/folder.h"
+#include "run/night.h"
 #include "run/prepare.h"
 #include "run/write_run.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -54,6 +56,7 @@ std::vector<Target> targets_of(const RunOptions& options) {
       preset.stop.passes = options.passes;
       preset.stop.error = options.until_error;
       preset::set_origin(preset, "/stop/error", "--until-error");
+      preset::check(preset, [&](const std::string& pointer) { return preset.provenance.origins->where(pointer); });
     }
     if (options.seed) {
       preset.seed = *options.seed;
@@ -79,18 +82,18 @@ void put_in_order(std::vector<double>& times) {
 }
 
 /// Replaces a white of "auto" by the root's number. The runs of a sweep and the frames of an animation use that of the
-/// first, so that their pictures can be compared; a resumed run keeps its own.
+/// first by day, so that their pictures can be compared; a resumed run keeps its own.
 void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series,
                const Communicator& communicator) {
   if (target.preset.white) return;
   if (communicator.is_root()) {
     if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) series.white = own;
     if (!series.white) {
-      const preset::Preset first = target.preset.animation ? preset::at_frame(target.preset, 0) : target.preset;
-      series.white = preset::at_origins(first, [&] {
-        return run::fitted_white(first, series.run.prepared, series.run.device, {interrupted, {}});
+      series.white = preset::at_origins(series.first, [&] {
+        return run::fitted_white(series.first, series.run.prepared, series.run.device, {interrupted, {}});
       });
-      fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *series.white);
+      if (preset::has_white(target.preset))
+        fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *series.white);
     }
   }
   target.preset.white = communicator.broadcast(series.white);
@@ -114,6 +117,19 @@ void run_one(const RunOptions& options, Target& target, const std::stop_token& i
     return report_result(options, target, done->progress, true);
   }
   preset::at_origins(target.preset, [&] { render(options, target, interrupted, series); });
+}
+
+/// Says before any work which frames of films, and how many of a sweep's runs, are dark.
+void say_nights(const std::vector<Target>& targets) {
+  std::vector<std::string> dark;
+  for (const Target& target : targets) {
+    const std::string note = run::night_note(target.preset);
+    if (target.preset.animation && !note.empty()) fmt::print(stderr, "note: {}\n", note);
+    if (!target.preset.animation && !note.empty()) dark.push_back(target.label);
+  }
+  if (targets.size() > 1 && !dark.empty())
+    fmt::print(stderr, "note: in {} of {} runs the sun is below the horizon, and the sky is dark: first in {}\n",
+               dark.size(), targets.size(), dark.front());
 }
 
 void run_all(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted,
@@ -164,6 +180,9 @@ void run_preset(const RunOptions& options, const std::stop_token& interrupted,
   if (ranks)
     device.turn = ranks->number_on_host(); // ranks of one machine take the devices that --device may mean in turn
   RunSeries series{.ranks = nullptr, .run = run::ReadyRun(device_opener(std::move(device)))};
+  if (!ranks || ranks->rank() == 0) say_nights(targets);
+  const auto by_day = std::ranges::find_if(targets, [](const Target& t) { return !run::is_night(t.preset); });
+  series.first = (by_day == targets.end() ? targets.front() : *by_day).preset;
   if (!ranks) return run_all(options, targets, interrupted, series);
   require_same_runs(options, targets, *ranks);
   if (targets.size() > 1) return distribute_runs(options, targets, interrupted, series, ranks);

@@ -39,6 +39,7 @@ struct Target {
 struct RunSeries {
   std::shared_ptr<mpi::Ranks> ranks; ///< the ranks that compute each run together; null: this process alone
   run::ReadyRun run;                ///< the newest run, whose device and scene, and for a frame its job, are used again
+  preset::Preset first = {};        ///< whose picture gives white its number
   std::optional<double> white = {}; ///< replaces "auto"
   std::set<std::string> notes = {}; ///< notes already printed: frames give much the same ones
 };

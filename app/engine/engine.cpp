@@ -43,7 +43,8 @@ bool adoptable(const preset::Preset& before, const preset::Preset& now) {
   const Engine& engine = engine_of(before);
   preset::Preset same = now;
   same.display = before.display;
-  return now.white && engine.adoptable && &engine == &engine_of(now) && engine.adoptable(before, same);
+  return (now.white || !before.white) && engine.adoptable && &engine == &engine_of(now) &&
+         engine.adoptable(before, same);
 }
 
 } // namespace nephroid::engine

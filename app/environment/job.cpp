@@ -26,7 +26,7 @@ class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
       : context_(context), preset_(preset), width_(preset.scene.camera.resolution[0]),
-        height_(preset.scene.camera.resolution[1]), sphere_white_(plan.render ? 0.2 : preset.white.value()),
+        height_(preset.scene.camera.resolution[1]), sphere_white_(plan.render ? 0.2 : preset.white.value_or(1)),
         stop_(preset.stop),
         // Without light the job only bakes, and the preset's passes are directions.
         baking_(plan.task, plan.baked,
@@ -157,7 +157,7 @@ public:
       baking_.set_shape(std::move(task), std::move(weights));
     }
     if (renderer() && baking_.is_complete() && !view_->has_caustics()) view_->set_bake(baking_.bake());
-    photons_.set_white(preset.white.value());
+    photons_.set_white(preset.white.value_or(1));
     preset_ = preset;
     return true;
   }

@@ -174,7 +174,7 @@ void check_animation(const Preset& preset, const Where& where) {
 /// another picture.
 void check_reference(const Preset& preset, const Where& where) {
   if (!preset.white && preset.reference && preset.reference->type == Reference::Type::file)
-    throw bad_input(where("/white"), "is \"auto\", and the reference is a picture with a white of its own",
+    throw bad_input(where("/white"), "is not a number, and the reference is a picture with a white of its own",
                     "expected the number that the reference was made with");
   if (!preset.reference || preset.reference->type != Reference::Type::recipe) return;
   const std::uint64_t seed = preset.reference->seed;
@@ -198,6 +198,8 @@ std::optional<int> days_since_2000(const std::string& date) {
   using namespace std::chrono_literals;
   return static_cast<int>((std::chrono::sys_days(there) - std::chrono::sys_days(2000y / 1 / 1)).count());
 }
+
+bool has_white(const Preset& preset) { return std::ranges::count(preset.settings.type().without, "white") == 0; }
 
 void check(const Preset& preset, const Where& where) {
   const Scene& scene = preset.scene;

@@ -68,8 +68,10 @@ inline constexpr Choice<Shape::Type> choices<Shape::Type>[] = {
 
 template <>
 inline constexpr Choice<Object::Normals> choices<Object::Normals>[] = {
+    {Object::Normals::given, "given", "Those of the mesh file; where it has none, and of a shape: faceted."},
     {Object::Normals::faceted, "faceted", "Every triangle is flat."},
-    {Object::Normals::smooth, "smooth", "Normals are interpolated between the corners of a triangle."}};
+    {Object::Normals::smooth, "smooth",
+     "Normals are interpolated between the corners of a triangle; where a file has none, they are made."}};
 
 template <>
 inline constexpr Choice<Light::Type> choices<Light::Type>[] = {

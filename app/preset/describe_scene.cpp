@@ -21,7 +21,7 @@ void describe(Fields& v, Dispersion& d) {
   if (d.type == Type::constant) // which has no range to leave
     return v.field("n", "Index of refraction.", d.n, {.bounds = index_bounds, .required = true});
   if (d.type == Type::file)
-    v.field("file", "A YAML file of refractiveindex.info.", d.file,
+    v.field("file", "A YAML file of refractiveindex.info, or one glass of Zemax (.agf).", d.file,
             {.text = Text::file, .names = Names::glass, .required = true});
   if (d.type == Type::sellmeier) {
     coefficients("b", "Strength of each term.", d.b);
@@ -167,6 +167,8 @@ void describe(Fields& v, Object& o) {
           {.text = Text::line, .names = Names::material, .required = true});
   v.field("transform", "Its size, turn and place.", o.transform);
   v.field("normals", "Flat or smooth.", o.normals);
+  v.field("crease_deg", "Where smooth normals are made, edges that bend more than this stay sharp; 180: none does.",
+          o.crease_deg, {.unit = "degrees", .bounds = within(0, 180)});
   v.field("priority", "Where two dielectrics overlap the higher one is there; of equals the one entered last.",
           o.priority, {.bounds = within(-1000000, 1000000)});
 }

@@ -51,7 +51,16 @@ Document document_from(const std::string& text, const fs::path& file, std::vecto
   const std::string name = file.string();
   if (std::all_of(text.begin(), text.end(), [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }))
     throw bad_input(name, "is empty", "expected a preset: one JSON object");
-  Json value = parse_json(text, name);
+  Json value;
+  try {
+    value = parse_json(text, name);
+  } catch (const Error&) {
+    if (const std::size_t first = text.find_first_not_of("\xef\xbb\xbf \t\r\n");
+        first == text.npos || text[first] == '{' || text[first] == '[')
+      throw;
+    throw bad_input(name, "is no preset", "expected JSON, which begins with {",
+                    "`nephroid import` takes scenes of other programs, a preset's object a mesh");
+  }
   if (!value.is_object()) throw bad_input({name, ""}, "is " + shown(value), "expected a preset: one JSON object");
   if (value.contains("$schema")) { // for editors; says nothing about the run
     if (!value["$schema"].is_string())

@@ -22,7 +22,7 @@ Outline outline_of(const Member& member) {
   o.size = type->size;
   o.whole = type->kind == Kind::integer || (type->item && type->item->kind == Kind::integer);
   o.object = type->make ? type : type->item && type->item->make ? type->item : nullptr;
-  if (o.kind != Kind::object) o.standard = as_json(member.value);
+  if (o.kind != Kind::object) o.standard = as_json(member);
   o.expected = o.kind == Kind::list || o.kind == Kind::map ? expected_count(o.field.count) : expected(o.field, *type);
   return o;
 }

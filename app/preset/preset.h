@@ -156,14 +156,15 @@ struct State {
 };
 
 struct Object {
-  enum class Normals { faceted, smooth };
+  enum class Normals { given, faceted, smooth };
   std::string name;
   std::optional<std::string> mesh; ///< a mesh file; exactly one of mesh and shape is given
   std::vector<State> states;       ///< of the mesh: each moves its vertices by its weight's part of the way
   std::optional<Shape> shape;
   std::string material; ///< a key of Scene::materials
   Transform transform;
-  Normals normals = Normals::faceted;
+  Normals normals = Normals::given;
+  double crease_deg = 40; ///< smooth, of a mesh without normals: an edge that bends more is sharp
   int priority = 0; ///< nested dielectrics: where two overlap the higher one is there; equal: the one entered last
   bool operator==(const Object&) const = default;
 };
@@ -373,8 +374,8 @@ struct Preset {
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
   /// The luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; nothing: "auto", which is a number
-  /// once a run is ready (run::fitted_white).
-  std::optional<double> white = 1;
+  /// once a run is ready (run::fitted_white), and 1 before.
+  std::optional<double> white;
   Display display;
   Scene scene;
   Settings settings;

@@ -106,8 +106,7 @@ private:
     // A struct's defaults stand at its own fields, and an optional one has none.
     const bool has_default =
         !member.field.required && member.role == Role::plain && member.value.kind() != Kind::object;
-    if (const Json standard = has_default ? as_json(member.value) : Json();
-        !standard.is_object() && !standard.is_null())
+    if (const Json standard = has_default ? as_json(member) : Json(); !standard.is_object() && !standard.is_null())
       schema["default"] = standard;
     return schema;
   }

@@ -35,6 +35,9 @@ struct SettingsType {
   bool (*equal)(const std::any& a, const std::any& b);
 };
 
+/// Whether `white` changes anything of the preset's pictures. Inverse ones are as bright as what is wanted.
+bool has_white(const Preset& preset);
+
 template <class S>
 void* settings_struct(Settings& settings) {
   return std::any_cast<S>(&settings.value());

@@ -50,13 +50,17 @@ Json object_of(const Value& value) {
   for (const Member& member : value.members()) {
     const bool absent = !member.value.exists() || (member.role == Role::recipe && member.value.count() == 0);
     if (absent) continue;
-    const bool is_word = !member.field.none_word.empty() && member.value.count() == 0;
-    object[std::string(member.field.name)] = is_word ? Json(member.field.none_word) : as_json(member.value);
+    object[std::string(member.field.name)] = as_json(member);
   }
   return object;
 }
 
 } // namespace
+
+Json as_json(const Member& member) {
+  const bool is_word = !member.field.none_word.empty() && member.value.count() == 0;
+  return is_word ? Json(member.field.none_word) : as_json(member.value);
+}
 
 Json as_json(const Value& value) {
   const Kind kind = value.kind();

@@ -15,6 +15,8 @@ void read(const Document& document, Preset& preset);
 
 /// Complete, in the order of describe.
 Json as_json(const Value& value);
+/// The same of a field's value, where there may be a word for none.
+Json as_json(const Member& member);
 
 /// What a field of this type wants, in words: "a number from 0 to 1", "a list of 1 to 16 items, each a string".
 std::string expected(const Field& field, const ValueType& type);

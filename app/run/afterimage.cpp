@@ -68,7 +68,7 @@ std::shared_ptr<const Afterimage> read_afterimage(const fs::path& frame_folder) 
 
 void write_afterimage(const fs::path& frame_folder, const Prepared& prepared, const photons::SeenPlaces& seen,
                       const std::vector<job::Layer>& layers) {
-  Afterimage left{seen, prepared.preset.white.value(), layers, {}};
+  Afterimage left{seen, prepared.preset.white.value_or(1), layers, {}};
   write_file_whole(frame_folder / afterimage_file, [&](ByteSink& to) {
     HashedSink hashed(to);
     Archive archive(hashed);
@@ -83,7 +83,7 @@ job::Beginning beginning_of(const Prepared& prepared, const photons::SeenPlaces&
   const Afterimage& left = *prepared.before;
   beginning.seed = hash_of(fmt::format("{} {}", prepared.preset.seed, left.input.content));
   const std::vector<photons::Taps> taps = taps_before(seen, prepared.loaded->scene.geometry, left.seen);
-  const auto scale = static_cast<float>(left.white / prepared.preset.white.value());
+  const auto scale = static_cast<float>(left.white / prepared.preset.white.value_or(1));
   auto before = std::make_shared<std::vector<job::Layer>>();
   for (const job::Layer& layer : left.layers) {
     job::Layer& there =

@@ -3,6 +3,7 @@
 
 #include "measure/lab.h"
 #include "preset/settings_type.h"
+#include "run/night.h"
 
 #include <fmt/format.h>
 
@@ -41,11 +42,33 @@ double white_for(const job::Picture& picture) {
   return middle > 0 ? std::clamp(std::stod(fmt::format("{:.1e}", 2 * middle)), 1e-12, 1e12) : 1;
 }
 
+std::string exposure_note(const job::Picture& picture, const preset::Preset& preset) {
+  constexpr double most_above = 0.2, blackest = 0.5 / 255 / 12.92; // that is shown as more than 0
+  constexpr double little = 1.5;                                   // of a factor that changes
+  if (!preset::has_white(preset) || picture.rgb.empty()) return {};
+  std::size_t above = 0;
+  double most = 0;
+  for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+    const double y = measure::luminance(&picture.rgb[i]);
+    above += y > 1;
+    most = std::max(most, y);
+  }
+  const double part = 3 * static_cast<double>(above) / static_cast<double>(picture.rgb.size());
+  if (!(most > 0)) return "the picture is black: no light comes to the camera";
+  if (most > blackest && (part < most_above || white_for(picture) < little)) return {};
+  return fmt::format("{}: --set white={:.2g} shows it",
+                     most > blackest ? fmt::format("{:.0f} % of the picture is above white", 100 * part)
+                                     : std::string("the picture is too dark to be seen"),
+                     preset.white.value_or(1) * white_for(picture));
+}
+
 double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device,
                     const Watch& watch) {
   // The engine's pictures may be bright as they are.
-  if (std::ranges::count(preset.settings.type().without, "white") > 0) return 1;
+  if (!preset::has_white(preset)) return 1;
+  preset = by_day(preset);
   preset.white = 1;
+  preset.seed = 1; // runs that differ in their noise alone can be compared
   preset.stop = {};
   preset.stop.passes = 1;
   preset.reference.reset();

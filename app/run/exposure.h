@@ -14,9 +14,14 @@ namespace nephroid::run {
 /// bright. Two digits; 1 of a black picture.
 double white_for(const job::Picture& picture);
 
-/// The same of the preset's first whole picture, at most 256 pixels wide and high: what stands for "auto". 1 where
-/// white changes nothing of the engine's pictures. lender: lends its scene to the small picture's run, which it then
-/// is. Throws as prepare and render_picture do, and interrupted where `watch` asks for it.
+/// What is wrong with how bright a picture is, and the white that would show it: a fifth of it or more is above white,
+/// or all of it is black. Else empty.
+std::string exposure_note(const job::Picture& picture, const preset::Preset& preset);
+
+/// The same as white_for of the preset's first whole picture, at most 256 pixels wide and high: what stands for "auto".
+/// Of an animation that begins at night the first frame by day is taken. 1 where white changes nothing of the engine's
+/// pictures. lender: lends its scene to the small picture's run, which it then is. Throws as prepare and render_picture
+/// do, and interrupted where `watch` asks for it.
 double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device,
                     const Watch& watch = {});
 

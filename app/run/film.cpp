@@ -6,6 +6,7 @@
 #include "preset/origins.h"
 #include "run/afterimage.h"
 #include "run/animation.h"
+#include "run/night.h"
 #include "run/write_run.h"
 
 #include <fmt/format.h>
@@ -63,6 +64,8 @@ private:
     preset::at_origins(animation_, [&] {
       const Prepared& prepared = prepare_next(run_, animation_, options_.watch);
       mixes_frames_ = prepared.plan->mixes_frames;
+      if (is_night(animation_))
+        mixes_frames_ = prepare(by_day(animation_), &prepared, options_.watch).plan->mixes_frames;
       if (options_.ranks) require_same(*options_.ranks, prepared, run_.device.context());
       require_memory(prepared, run_.device.context(), options_.ranks); // throws before a folder is made
     });

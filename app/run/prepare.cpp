@@ -5,6 +5,7 @@
 #include "run/afterimage.h"
 #include "run/content.h"
 #include "run/memory.h"
+#include "run/night.h"
 
 #include <fmt/format.h>
 
@@ -83,6 +84,7 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous, const W
       plan->notes.push_back(fmt::format(
           "frame {} begins by itself: of frame {} there is nothing, or it has other objects", frame, frame - 1));
   }
+  if (const std::string night = night_note(preset); !night.empty()) plan->notes.push_back(night);
   plan->notes.insert(plan->notes.begin(), preset.provenance.notes.begin(), preset.provenance.notes.end());
   return {preset, std::move(loaded), std::move(plan), std::move(before)};
 }

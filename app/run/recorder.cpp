@@ -3,6 +3,7 @@
 
 #include "run/afterimage.h"
 #include "run/checkpoint.h"
+#include "run/exposure.h"
 #include "run/write_run.h"
 
 #include <fmt/format.h>
@@ -36,6 +37,9 @@ void Recorder::ended(job::Job& job) {
   last_ = job.snapshot();
   is_finished_ = job.finished() && !last_.stands_in;
   if (run_.seen && is_finished_) write_for_next_frame();
+  if (last_.picture && is_finished_ && !options_.is_frame)
+    if (std::string note = exposure_note(*last_.picture, run_.prepared->preset); !note.empty())
+      last_.warnings.push_back(std::move(note));
   write_run(options_.folder, *run_.prepared, run_.device.opened().device(), last_, run_.reference.get(), is_finished_);
   last_.picture.reset(); // the report reads the files
   last_.left.clear();

@@ -80,7 +80,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
   Json all{{"name", prepared.preset.name},
            {"engine", prepared.plan->engine},
            {"seed", prepared.preset.seed},
-           {"white", prepared.preset.white.value()},
+           {"white", prepared.preset.white.value_or(1)},
            {"display", display_json(display_of(prepared.preset))},
            {"version", version()},
            {"commit", commit()},

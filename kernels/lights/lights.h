@@ -124,9 +124,8 @@ static inline Emission emit_on_lattice(const World* world, int index, int target
     emission = cone_lattice(from.position, from.direction, light->as.spot.one_minus_cos, targets, target, disc, d);
     emission.watts = light->radiometric;
     if (target >= 0) {
-      float sum = 0.0f;
-      for (int i = 0; i < target_count; ++i) sum += one_minus_cos_of(targets[i].centre_radius, from.position);
-      const float steradians = steradians_a_photon(targets, target_count, target, sum, from.position, &emission);
+      const Densities of = densities_from(targets, target_count, from.position);
+      const float steradians = steradians_a_photon(targets, target_count, target, &of, from.position, &emission);
       emission.watts = watts_into(light, &from, emission.direction, steradians) *
                        part_sent(world, light, &from, emission.direction);
       emission.behind *= UP_TO_LAMP;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where
 // a texel is seen). A row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in
-// the texel by solid angle. So every photon carries nearly the same power.
+// the texel by solid angle. So every photon of a target carries nearly the same power.
 //
 // A texel has one colour, which stands for r, g and b times the fixed spectra of the three sRGB primaries, as in
 // background.h. These are three rows of the tables of lights, from the environment's own on. A photon carries their

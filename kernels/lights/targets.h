@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
-// in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
-// inside it. Where `count` targets overlap, each could have made a photon: its density is count / (sum of all).
+// Photons sent towards the caustic objects only. Spheres about them are the targets. A photon picks a target, then a
+// direction (parallel light: a place) uniformly inside it. Where targets overlap, each could have made a photon: its
+// density is the sum of theirs (balance heuristic; Veach and Guibas 1995).
+//
+// A target's size is the solid angle, or the area, that it fills. Half of the photons go by size, and half to all
+// targets alike: so a glass has photons of its own, however large the varnished table is that it stands on. Without a
+// bound a tiny target's photons would be too weak for a film's quanta.
 #include "kernels/lights/light.h"
 #include "kernels/tracing/frame.h"
 #include "kernels/tracing/surface.h"
@@ -69,57 +73,86 @@ static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 r
   photon->origin = centre + photon->behind * aside;
 }
 
-// 1 / density of a photon that was sent towards the target `chosen`. sum: of one_minus_cos_of all targets.
-static inline float steradians_a_photon(__global const DeviceTarget* targets, int target_count, int chosen, float sum,
-                                        float3 from, const Emission* photon) {
-  int count = 1;
+// The sizes of a light's targets, and a photon's density in each where no other overlaps it.
+typedef struct {
+  float size[MAX_TARGETS], density[MAX_TARGETS];
+} Densities;
+
+// With sizes that are all 0 a photon carries nothing.
+static inline void make_densities(Densities* of, int target_count) {
+  float sizes = 0.0f, photons = 0.0f;
+  for (int i = 0; i < target_count; ++i) sizes += of->size[i];
+  for (int i = 0; i < target_count; ++i) {
+    of->density[i] = min(1.0f / ((float)target_count * of->size[i]), MOST_CROWDED / sizes) + 1.0f / sizes;
+    photons += of->density[i] * of->size[i];
+  }
+  for (int i = 0; i < target_count; ++i) of->density[i] = sizes > 0.0f ? of->density[i] / photons : INFINITY;
+}
+
+// The number of a target, drawn by random in [0, 1).
+static inline int draw_target(const Densities* of, int target_count, float random) {
+  int chosen = 0;
+  for (; chosen + 1 < target_count; ++chosen) {
+    const float share = of->size[chosen] * of->density[chosen];
+    if (random < share) break;
+    random -= share;
+  }
+  return chosen;
+}
+
+// Sizes are one_minus_cos_of.
+static inline Densities densities_from(__global const DeviceTarget* targets, int target_count, float3 from) {
+  Densities result;
+  for (int i = 0; i < target_count; ++i) result.size[i] = one_minus_cos_of(targets[i].centre_radius, from);
+  make_densities(&result, target_count);
+  return result;
+}
+
+// 1 / density of a photon that was sent towards the target `chosen`.
+static inline float steradians_a_photon(__global const DeviceTarget* targets, int target_count, int chosen,
+                                        const Densities* of, float3 from, const Emission* photon) {
+  float density = 0.0f;
   for (int i = 0; i < target_count; ++i)
-    if (i != chosen && meets_sphere(targets[i].centre_radius, from, photon)) ++count;
-  return 2.0f * PI_F * sum / (float)count;
+    if (i == chosen || meets_sphere(targets[i].centre_radius, from, photon)) density += of->density[i];
+  return 2.0f * PI_F / density;
 }
 
 // Sends a photon from a point towards the targets: writes its line to *photon. Returns 1 / density in steradians.
 static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random,
                                    Emission* photon) {
-  float one_minus_cos[MAX_TARGETS];
-  float sum = 0.0f;
-  for (int i = 0; i < target_count; ++i) {
-    one_minus_cos[i] = one_minus_cos_of(targets[i].centre_radius, from);
-    sum += one_minus_cos[i];
-  }
-  int chosen = 0;
-  float rest = random.x * sum;
-  while (chosen + 1 < target_count && rest >= one_minus_cos[chosen]) rest -= one_minus_cos[chosen++];
-  aim(targets[chosen].centre_radius.xyz, one_minus_cos[chosen], from, random.yz, photon);
-  return steradians_a_photon(targets, target_count, chosen, sum, from, photon);
+  const Densities of = densities_from(targets, target_count, from);
+  const int chosen = draw_target(&of, target_count, random.x);
+  aim(targets[chosen].centre_radius.xyz, of.size[chosen], from, random.yz, photon);
+  return steradians_a_photon(targets, target_count, chosen, &of, from, photon);
 }
 
-// What a photon of parallel light carries that starts at a place of the target `chosen`. sum: of the radii squared.
+// Sizes are the squares of radii.
+static inline Densities parallel_densities(__global const DeviceTarget* targets, int target_count) {
+  Densities result;
+  for (int i = 0; i < target_count; ++i)
+    result.size[i] = targets[i].centre_radius.w * targets[i].centre_radius.w;
+  make_densities(&result, target_count);
+  return result;
+}
+
+// What a photon of parallel light carries that starts at a place of the target `chosen`.
 static inline float parallel_watts(float3 direction, float irradiance, __global const DeviceTarget* targets,
-                                   int target_count, const DeviceScene* scene, int chosen, float sum, float3 place) {
-  int count = 1;
+                                   int target_count, const DeviceScene* scene, int chosen, const Densities* of,
+                                   float3 place) {
+  float density = 0.0f;
   for (int i = 0; i < target_count; ++i) {
     const float3 way = place - targets[i].centre_radius.xyz;
     const float3 aside = way - dot(way, direction) * direction;
-    if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
+    if (i == chosen || dot(aside, aside) <= of->size[i]) density += of->density[i];
   }
-  const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
-  return irradiance * square_metres / (float)count;
+  return irradiance * PI_F / density * scene->metres_per_unit * scene->metres_per_unit;
 }
 
 // A photon of parallel light in a unit direction.
 static inline Emission emit_parallel(float3 direction, float irradiance, __global const DeviceTarget* targets,
                                      int target_count, const DeviceScene* scene, float4 random) {
-  float sum = 0.0f;
-  for (int i = 0; i < target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
-  int chosen = 0;
-  float rest = random.x * sum;
-  while (chosen + 1 < target_count) {
-    const float share = targets[chosen].centre_radius.w * targets[chosen].centre_radius.w;
-    if (rest < share) break;
-    rest -= share;
-    ++chosen;
-  }
+  const Densities of = parallel_densities(targets, target_count);
+  const int chosen = draw_target(&of, target_count, random.x);
   float3 x, y;
   make_frame(direction, &x, &y);
   float cosine_phi;
@@ -127,7 +160,7 @@ static inline Emission emit_parallel(float3 direction, float irradiance, __globa
   const float radius = targets[chosen].centre_radius.w * sqrt(random.y);
   const float3 place = targets[chosen].centre_radius.xyz + radius * (cosine_phi * x + sine_phi * y);
   const Emission emission = {place, direction, scene->outside_distance,
-                             parallel_watts(direction, irradiance, targets, target_count, scene, chosen, sum, place)};
+                             parallel_watts(direction, irradiance, targets, target_count, scene, chosen, &of, place)};
   return emission;
 }
 
@@ -138,13 +171,12 @@ static inline Emission parallel_lattice(float3 direction, float irradiance, __gl
                                         Differential d[2]) {
   float3 x, y;
   make_frame(direction, &x, &y);
-  float sum = 0.0f;
-  for (int i = 0; i < target_count; ++i) sum += targets[i].centre_radius.w * targets[i].centre_radius.w;
+  const Densities of = parallel_densities(targets, target_count);
   const float4 sphere = targets[target].centre_radius;
   const float3 place = sphere.xyz + sphere.w * (disc.x * x + disc.y * y);
   const Emission emission = {
       place, direction, scene->outside_distance,
-      parallel_watts(direction, irradiance, targets, target_count, scene, target, sum, place)};
+      parallel_watts(direction, irradiance, targets, target_count, scene, target, &of, place)};
   d[0].position = sphere.w * x;
   d[1].position = sphere.w * y;
   d[0].direction = d[1].direction = (float3)(0.0f);

@@ -10,7 +10,7 @@
 #define BOUNCES 4u // of a sample, each in a band of its own
 
 // A direction from a surface towards glass or a mirror, and cosine / density. normal: of the side that is lit. Small
-// targets are drawn by their solid angle; where they fill half of what is above, the cosine is as good.
+// targets are drawn; where they fill half of what is above, the cosine is as good.
 static inline float3 direction_to_targets(__global const DeviceTarget* targets, int target_count, float3 from,
                                           float3 normal, float4 random, float* weight) {
   float sum = 0.0f;

@@ -30,6 +30,8 @@ struct alignas(8) uint2 {
 
 // At most this many spheres stand for the caustic objects.
 #define MAX_TARGETS 16
+// How many times as densely as on the mean a target may have photons (targets.h).
+#define MOST_CROWDED 256.0f
 
 // The histogram that guides a light's photons (guide.h): bins of the numbers that pick a target and a direction in it.
 #define GUIDE_BINS_X 16
@@ -97,7 +99,7 @@ typedef struct {
   ulong latest, earlier; // the last four objects entered, the last one in the lowest bits; the four before
 } Media;
 
-// A bounding sphere of a caustic object; photons are sent towards these only. The table has lists of them.
+// A sphere about a caustic object or a part of one; photons are sent towards these only. The table has lists of them.
 typedef struct {
   float4 centre_radius; // w: radius
 } DeviceTarget;

@@ -18,10 +18,12 @@ inline const std::string glass_ball =
 
 /// Materials glass (n = 1.5), mirror and wall, these objects, and overrides as of --set.
 inline preset::Preset bake_preset(const std::string& objects = glass_ball, const preset::Overrides& overrides = {}) {
-  return preset::parse_preset(R"({"engine": "environment", "scene": {"camera": {"resolution": [64, 64]}, "materials": {
+  return preset::parse_preset(
+      R"({"engine": "environment", "white": 1, "scene": {"camera": {"resolution": [64, 64]}, "materials": {
     "glass": {"type": "dielectric", "dispersion": 1.5}, "mirror": {"type": "mirror", "reflectance": 1}, "wall": {"type": "diffuse"}},
-    "objects": [)" + objects + "]}}",
-                              "own.json", overrides);
+    "objects": [)" +
+          objects + "]}}",
+      "own.json", overrides);
 }
 
 /// Of the first of the directions alone, or of another one; of all of them where `direction` is empty.

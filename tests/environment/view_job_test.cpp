@@ -224,7 +224,7 @@ TEST_F(EnvironmentViewJob, GoesBackToAHalfMadeBake) {
 TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn) {
   const preset::Preset p = lit();
   preset::Preset brighter = p;
-  brighter.white = 0.5 * p.white.value();
+  brighter.white = 0.5 * p.white.value_or(1);
   const auto job = job_of(p);
   while (job->progress().step < 1) job->advance();
   const double seconds = job->progress().work_seconds;
@@ -317,7 +317,7 @@ TEST_F(EnvironmentViewJob, WithoutLightTheBakeIsShown) {
     const auto job = job_of(*p, plan);
     const job::Snapshot made = run(*job);
     const environment::Bake bake = bake_of(*p);
-    EXPECT_EQ(made.picture->rgb, sheet(bake, choose_shown(bake, 128, 96), 128, 96, p->white.value())->rgb);
+    EXPECT_EQ(made.picture->rgb, sheet(bake, choose_shown(bake, 128, 96), 128, 96, p->white.value_or(1))->rgb);
     EXPECT_FALSE(job->adopt(lit()));
   }
 }

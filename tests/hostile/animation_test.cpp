@@ -196,6 +196,36 @@ TEST_F(Animations, RenderChosenFrames) {
   EXPECT_TRUE(fs::exists(file("film") / "image.png"));
 }
 
+// Frames at night cost the others nothing. What "auto" makes white is of a frame by day.
+TEST_F(Animations, AreDarkAtNight) {
+  const std::string sky = R"(scene.environment={"type":"sky","lights":true,"place":{"latitude_deg":51.22,)"
+                          R"("longitude_deg":4.4,"date":"2026-06-21","hour":12,"utc_offset_h":2}})",
+                    day = R"(animation={"frames":3,"tracks":[{"path":"scene.environment.place.hour",)"
+                          R"("keys":[{"frame":0,"value":3},{"frame":2,"value":23}]}]})";
+  const std::vector<std::string> more{"--passes",        "1",     "--set",          sky,    "--set",
+                                      "scene.lights=[]", "--set", "white=\"auto\"", "--set"};
+  std::vector<std::string> film = more, sweep = more;
+  film.push_back(day);
+  sweep.push_back(R"(sweep={"scene.environment.place.hour":[3,13]})");
+  const Ended ended = run("film", film);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("the sun is below the horizon in the frames 0, 2: the sky"));
+  const auto light = [&](const fs::path& picture) {
+    const std::vector<float> data = nephroid::image::read_image(picture).data;
+    return std::accumulate(data.begin(), data.end(), 0.0);
+  };
+  EXPECT_EQ(light(frame("film", 0)), 0);
+  EXPECT_GT(light(frame("film", 1)), 0);
+  EXPECT_EQ(light(frame("film", 2)), 0);
+  const json preset = json::parse(read_file(own("film", 1, "preset.json")));
+  EXPECT_NE(preset["white"], 1);
+  const Ended swept = run("sweep", sweep);
+  ASSERT_EQ(swept.exit_code, 0) << swept.err;
+  EXPECT_THAT(swept.err, HasSubstr("note: in 1 of 2 runs the sun is below the horizon"));
+  EXPECT_EQ(light(file("sweep") / "hour=3" / "image.exr"), 0);
+  EXPECT_EQ(json::parse(read_file(file("sweep") / "hour=3" / "preset.json"))["white"], preset["white"]);
+}
+
 TEST_F(Animations, AreRefusedBeforeTheFirstFrame) {
   const auto refused = [&](std::vector<std::string> more, const std::string& says) {
     const std::vector<std::string> arguments = into("none", more);

@@ -17,6 +17,8 @@ const std::vector<Wrong> cases{
     {{"rum", "first-light"}, "unknown verb 'rum'; did you mean 'run'?"},
     {{"preset"}, "did you mean 'presets'?"},
     {{"help", "rum"}, "help: unknown verb 'rum'; did you mean 'run'?"},
+    {{"--kernels", "folder", "check"}, "--kernels: stands before the verb 'check'; put it after the verb"},
+    {{"first-light", "run"}, "first-light: stands before the verb 'run'"},
     {{"run"}, "run: PRESET is required; see nephroid run --help"},
     {{"run", "--device"}, "--device"},
     {{"run", "spectral/plate", "--devise", "0"}, "unknown option '--devise'; did you mean '--device'?"},

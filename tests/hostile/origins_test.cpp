@@ -52,7 +52,7 @@ TEST_F(Origins, AFileThatAnOverrideNamesIsTheOverridesError) {
       {{"clusters", "scenes/ball.json", "--set", dispersion}, missing(dispersion, "nope.yml")},
       {{"plan", "scenes/ball.json", "--set", environment}, missing(environment, "nope.exr")},
       {{"plan", "scenes/ball.json", "--set", nowhere}, "--set " + nowhere + ": there is no file '/nowhere/a.exr'"},
-      {{"run", "scenes/ball.json", "--set", reference}, missing(reference, "nope.exr")},
+      {{"run", "scenes/ball.json", "--set", "white=1", "--set", reference}, missing(reference, "nope.exr")},
   };
   for (const Wrong& wrong : cases) expect_refused(run(wrong.arguments), wrong);
 }
@@ -92,7 +92,7 @@ TEST_F(Origins, WhatIsWrongInOneRunOfASweepNamesTheRun) {
 
 TEST_F(Origins, WhatAnOptionAsksForIsTheOptionsError) {
   const Wrong wrong{{"run", "scenes/ball.json", "--until-error", "1", "--set", "measure.estimate=false"},
-                    "nephroid: --until-error: nothing measures the error of this run in lab_mean; "};
+                    "nephroid: --until-error: nothing measures the error of this run: 'measure.estimate' is false; "};
   expect_refused(run(wrong.arguments), wrong);
 }
 

@@ -68,6 +68,8 @@ TEST_F(BadPresets, AreRefusedInOneLine) {
       {"{\"engine\":\"spectral\",\"name\":\"\xff\"}",
        R"(:1:30: is not JSON; syntax error while parsing value - invalid string: ill-formed UTF-8 byte; last read: '"')"},
       {R"([1, 2])", R"(#: is a list of 2 items; expected a preset: one JSON object)"},
+      {"GemCad 5.0\ng 96 0.0\n",
+       R"(: is no preset; expected JSON, which begins with {; `nephroid import` takes scenes of other programs, a preset's object a mesh)"},
       {R"(3)", R"(#: is 3; expected a preset: one JSON object)"},
       {top(R"("seed":1,"seed":2)"), R"(#/seed: key 'seed' is given twice; expected each key once)"},
       {camera(R"("fov_deg":30,"fov_deg":40)"),

@@ -44,7 +44,8 @@ protected:
     write("c.bin", gltf_buffer(1));
     write("glass.yml", index_file(1.5));
     for (const char* picture : {"sky.exr", "reference.exr", "mask.exr", "wanted.exr"}) write_picture(picture, 1);
-    write("spectral.json", R"({"engine": "spectral", "seed": 7, "stop": {"passes": 1}, "reference": "reference.exr",
+    write("spectral.json",
+          R"({"engine": "spectral", "seed": 7, "stop": {"passes": 1}, "reference": "reference.exr", "white": 1,
       "measure": {"mask": "mask.exr"}, "spectral": {"photons_per_pass": 1000}, "scene": {"camera": {"resolution": [16, 16]},
       "environment": "sky.exr", "lights": [{"type": "directional", "direction": [0, -1, 0]}],
       "materials": {"g": {"type": "dielectric", "dispersion": "glass.yml"}}, "objects": [{"mesh": "a.obj", "material": "g"}, {"mesh": "b.gltf", "material": "g", "transform": {"translate": [5, 0, 0]}}]}})");

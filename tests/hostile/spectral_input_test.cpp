@@ -145,7 +145,7 @@ TEST_F(SpectralInput, ALightWithoutVisiblePowerIsRefused) {
   const std::string at = "p.json#/scene/lights/0/spectrum";
   EXPECT_EQ(refusal(light(R"({"type":"table","table":[[400,0],[700,0]]})")),
             at + "/table: has no power at any wavelength; expected at least one power above 0");
-  for (const char* table : {"[[900,1],[1000,1]]", "[[100,5],[379,5]]", "[[500.2,0],[500.5,1],[500.8,0]]"})
+  for (const char* table : {"[[900,1],[1000,1]]", "[[100,5],[379,5]]"})
     EXPECT_EQ(refusal(light(fmt::format(R"({{"type":"table","table":{}}})", table))),
               at + ": the light's table has no power in 380..780 nm; expected at least one wavelength with power there")
         << table;

@@ -6,6 +6,9 @@
 
 #include <glm/glm.hpp>
 
+#include <functional>
+#include <numeric>
+
 namespace nephroid::emission_samplers_test {
 
 using namespace shared;
@@ -83,6 +86,24 @@ TEST(Emission, FromInsideATargetItIsTheWholeSphere) {
   }
 }
 
+// A small target is 1.5e-4 of all that targets fill. MOST_CROWDED times that is less than its half of what all have
+// alike. Its photons together stand for its solid angle.
+TEST(Emission, ASmallTargetHasPhotonsBesideALargeOne) {
+  constexpr std::size_t count = 1 << 16;
+  const double small = 1 - std::cos(std::asin(0.01)), large = 1 - std::cos(std::asin(0.75));
+  double hits = 0, steradians = 0, all = 0;
+  for (const float4& s : sample({{{0, 0, 10, 7.5f}}, {{10, 0, 0, 0.1f}}}, count)) {
+    all += double{s.w} / count;
+    if (s.x > 0.9f) ++hits, steradians += double{s.w} / count;
+  }
+  const double by_size = small / (small + large),
+               chance = (MOST_CROWDED + 1) * by_size / (MOST_CROWDED * by_size + 1.5);
+  const double deviation = std::sqrt(chance * (1 - chance) / count);
+  EXPECT_NEAR(hits / count, chance, 4 * deviation);
+  EXPECT_NEAR(steradians / (2 * M_PI * small), 1, 4 * deviation / chance);
+  EXPECT_NEAR(all / (2 * M_PI * (small + large)), 1, 4 * deviation / (1 - chance));
+}
+
 // Photons of every type of light towards several overlapping targets. Their density is what the sampler is
 // meant to have, by chi-square, and the power that they carry is what the light sends towards the targets, everywhere,
 // whatever the density. Both truths are integrals over cells, of formulas that are written here anew, in double
@@ -137,18 +158,31 @@ bool meets(const DeviceTarget& t, const glm::dvec3& from, const glm::dvec3& dire
   return glm::length(way) <= radius_of(t) || (along > 0 && aside2 <= radius_of(t) * radius_of(t));
 }
 
-/// How many targets a direction meets, and the sum of all their solid angles in steradians.
-int targets_met(const glm::dvec3& from, const glm::dvec3& direction) {
-  return static_cast<int>(
-      std::count_if(targets.begin(), targets.end(), [&](const DeviceTarget& t) { return meets(t, from, direction); }));
-}
-double sum_of_solid_angles(const glm::dvec3& from) {
-  double sum = 0;
+/// The solid angles of all targets over 2 pi.
+std::vector<double> solid_angles(const glm::dvec3& from) {
+  std::vector<double> sizes;
   for (const DeviceTarget& t : targets) {
     const double d = glm::length(vector(t.centre_radius) - from);
-    sum += d <= radius_of(t) ? 4 * M_PI : 2 * M_PI * (1 - std::sqrt(1 - radius_of(t) * radius_of(t) / (d * d)));
+    sizes.push_back(d <= radius_of(t) ? 2 : 1 - std::sqrt(1 - radius_of(t) * radius_of(t) / (d * d)));
   }
-  return sum;
+  return sizes;
+}
+
+/// The density of photons where they could have been sent to each target that `met` tells: half of them go by size,
+/// half to all alike.
+double density_of(const std::vector<double>& sizes, const std::function<bool(const DeviceTarget&)>& met) {
+  const double sum = std::accumulate(sizes.begin(), sizes.end(), 0.0);
+  double density = 0;
+  for (std::size_t t = 0; t < targets.size(); ++t)
+    if (met(targets[t])) density += 0.5 / (static_cast<double>(targets.size()) * sizes[t]) + 0.5 / sum;
+  return density;
+}
+double density_of(const glm::dvec3& from, const glm::dvec3& direction) {
+  return density_of(solid_angles(from), [&](const DeviceTarget& t) { return meets(t, from, direction); });
+}
+double sum_of_solid_angles(const glm::dvec3& from) {
+  const std::vector<double> sizes = solid_angles(from);
+  return 2 * M_PI * std::accumulate(sizes.begin(), sizes.end(), 0.0);
 }
 
 /// Cells of equal measure over a square of two coordinates in [0, 1).
@@ -219,10 +253,10 @@ TEST(EmissionSamplers, PointLight) {
   const glm::dvec3 from(0.1, -0.2, 0.3);
   DeviceLight light{.type = LIGHT_POINT, .radiometric = 7, .table = -1};
   light.as.point = {.position = device(from)};
-  const std::vector<double> density = integrals(
-      4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
+  const std::vector<double> density =
+      integrals(4 * M_PI, [&](double a, double b, double, double) { return density_of(from, direction_of(a, b)); });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double, double) {
-    return targets_met(from, direction_of(a, b)) > 0 ? 7 / (4 * M_PI) : 0.0;
+    return density_of(from, direction_of(a, b)) > 0 ? 7 / (4 * M_PI) : 0.0;
   });
   expect_emission(emit(light), cell_of_sent_direction, density, watts);
 }
@@ -256,11 +290,11 @@ TEST(EmissionSamplers, WideSpot) {
   const DeviceLight light = spot(62);
   const glm::dvec3 from(0);
   ASSERT_GT(static_cast<double>(light.as.spot.solid_angle), sum_of_solid_angles(from));
-  const std::vector<double> density = integrals(
-      4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
+  const std::vector<double> density =
+      integrals(4 * M_PI, [&](double a, double b, double, double) { return density_of(from, direction_of(a, b)); });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double, double) {
     const glm::dvec3 d = direction_of(a, b);
-    return in_cone(light, d) && targets_met(from, d) > 0 ? 7 / static_cast<double>(light.as.spot.solid_angle) : 0.0;
+    return in_cone(light, d) && density_of(from, d) > 0 ? 7 / static_cast<double>(light.as.spot.solid_angle) : 0.0;
   });
   expect_emission(emit(light), cell_of_sent_direction, density, watts);
 }
@@ -285,11 +319,11 @@ TEST(EmissionSamplers, AreaLightDirections) {
   };
   const std::vector<double> density = integrals(4 * M_PI, [&](double a, double b, double s, double t) {
     const glm::dvec3 from = point(s, t);
-    return targets_met(from, direction_of(a, b)) / sum_of_solid_angles(from);
+    return density_of(from, direction_of(a, b));
   });
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double s, double t) {
     const glm::dvec3 d = direction_of(a, b);
-    return targets_met(point(s, t), d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(area.normal)), 0.0) : 0.0;
+    return density_of(point(s, t), d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(area.normal)), 0.0) : 0.0;
   });
   expect_emission(emit(light), cell_of_sent_direction, density, watts);
 }
@@ -307,7 +341,7 @@ TEST(EmissionSamplers, AreaLightPlaces) {
   const std::vector<double> watts = integrals(4 * M_PI, [&](double a, double b, double s, double t) {
     const glm::dvec3 from = vector(area.centre) + (a - 0.5) * vector(area.edge_u) + (b - 0.5) * vector(area.edge_v),
                      d = direction_of(s, t);
-    return targets_met(from, d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(area.normal)), 0.0) : 0.0;
+    return density_of(from, d) > 0 ? 7 / M_PI * std::max(glm::dot(d, vector(area.normal)), 0.0) : 0.0;
   });
   const std::vector<Sent> sent = emit(light);
   std::vector<double> counts(density.size(), 0.0);
@@ -331,16 +365,18 @@ TEST(EmissionSamplers, DirectionalLight) {
   const glm::dvec3 x = glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0))), y = glm::cross(along, x);
   constexpr double edge = 8; // of the square about the origin that holds all shadows
   const auto place = [&](double a, double b) { return edge * ((a - 0.5) * x + (b - 0.5) * y); };
-  const auto shadows = [&](const glm::dvec3& p) {
-    return std::count_if(targets.begin(), targets.end(), [&](const DeviceTarget& t) {
+  std::vector<double> sizes;
+  for (const DeviceTarget& t : targets) sizes.push_back(radius_of(t) * radius_of(t));
+  const auto density_at = [&](const glm::dvec3& p) {
+    return density_of(sizes, [&](const DeviceTarget& t) {
       const glm::dvec3 way = vector(t.centre_radius) - p;
       return glm::length(way - glm::dot(way, along) * along) <= radius_of(t);
     });
   };
   const std::vector<double> density =
-      integrals(edge * edge, [&](double a, double b, double, double) { return double(shadows(place(a, b))); });
+      integrals(edge * edge, [&](double a, double b, double, double) { return density_at(place(a, b)); });
   const std::vector<double> watts = integrals(
-      edge * edge, [&](double a, double b, double, double) { return shadows(place(a, b)) > 0 ? 7 * 1e-4 : 0.0; });
+      edge * edge, [&](double a, double b, double, double) { return density_at(place(a, b)) > 0 ? 7 * 1e-4 : 0.0; });
   const std::vector<Sent> sent = emit(light);
   for (const Sent& photon : sent) ASSERT_LT(glm::distance(vector(photon.direction), along), 1e-6);
   const auto cell = [&](const Sent& photon) {

@@ -92,12 +92,18 @@ inline preset::Light parallel_light(const preset::Vec3& direction) {
 }
 inline optics::Spectrum spectrum_of(const preset::Light& light) { return optics::light_lines(light.spectrum.table); }
 
-/// The most that a photon of a directional light of 1 W/m^2 carries, of `count`: as if no two targets overlapped.
+/// The most that a photon of a directional light of 1 W/m^2 carries, of `count`: in the largest target, as if no other
+/// overlapped it. Half of the photons go to the targets' shadows by size, and half to all alike.
 inline double directional_photon_w(const preset::Preset& preset, double count) {
-  double square_metres = 0;
-  for (const scene::Sphere& s : tracing::caustic_targets(scene::load_scene(preset)))
-    square_metres += std::numbers::pi * s.radius * s.radius;
-  return square_metres / count;
+  double sum = 0, largest = 0;
+  const std::vector<scene::Sphere> targets = tracing::caustic_targets(scene::load_scene(preset));
+  for (const scene::Sphere& s : targets) {
+    const double square_metres = std::numbers::pi * s.radius * s.radius;
+    sum += square_metres;
+    largest = std::max(largest, square_metres);
+  }
+  const double alike = static_cast<double>(targets.size()) * largest;
+  return 2 / (1 / sum + 1 / alike) / count;
 }
 
 /// How a picture compares with its truth where photons carry at most `photon_w`. A pixel that expects W watts then has

@@ -139,7 +139,7 @@ inline double mean_y(const job::Snapshot& snapshot, const std::string& name) {
 /// The mean irradiance on the picture in W/m^2, by its layer.
 inline double mean_irradiance(const preset::Preset& p, const std::string& name = "direct") {
   return mean_y(render(p), name) * M_PI / optics::to_xyz(optics::light_lines(p.scene.lights[0].spectrum.table))[1] *
-         p.white.value();
+         p.white.value_or(1);
 }
 
 /// I cos / d^2 of a point, mean over 1 m of floor.

@@ -156,7 +156,9 @@ TEST(Animation, IsRefusedInOneLine) {
         AllOf(StartsWith("a.json#/animation/frames: is "), HasSubstr("expected a whole number from 1 to 10000")));
   EXPECT_THAT(refusal_of([&] { read(with(R"({"fps": 0})")); }),
               StartsWith("a.json#/animation/fps: is 0; expected a number from 0.1 to 1000"));
-  EXPECT_THAT(refusal_of([&] { read(with("{}"), {"reference=a.exr"}); }),
+  EXPECT_THAT(refusal_of([&] {
+                read(with("{}"), {"white=1", "reference=a.exr"});
+              }),
               StartsWith("--set reference=a.exr: is one picture for all frames"));
 }
 

@@ -32,4 +32,16 @@ TEST(WhiteFor, CausticsCountWhereTheyAreTheLight) {
   EXPECT_EQ(run::white_for(with(0)), 4);
 }
 
+TEST(Exposure, APictureOfWhichMuchIsWhiteOrAllIsBlackSaysSo) {
+  preset::Preset preset;
+  preset.white = 2;
+  const auto note = [&](std::vector<float> rgb) { return run::exposure_note({10, 10, std::move(rgb)}, preset); };
+  EXPECT_EQ(note(grey(0.3f, 7, 19)), "");
+  EXPECT_EQ(note(grey(0.3f, 7, 20)), "20 % of the picture is above white: --set white=28 shows it");
+  EXPECT_EQ(note(grey(5)), "100 % of the picture is above white: --set white=20 shows it");
+  EXPECT_EQ(note(grey(1e-5f)), "the picture is too dark to be seen: --set white=4e-05 shows it");
+  EXPECT_EQ(note(grey(0.7f, 4, 25)), "") << "another white would hardly change it";
+  EXPECT_EQ(note(grey(0)), "the picture is black: no light comes to the camera");
+}
+
 } // namespace nephroid::exposure_test

@@ -54,21 +54,14 @@ struct LibraryRule {
   std::string folders;
 };
 
-const std::vector<LibraryRule> library_rules{{"CL/", "compute"},
-                                             {"OpenImageIO/", "image"},
-                                             {"assimp/", "scene"},
-                                             {"embree", "scene"},
-                                             {"CLI/", "cli"},
-                                             {"yaml-cpp/", "optics"},
-                                             {"GLFW/", "ui"},
-                                             {"GL/", "ui"},
-                                             {"imgui", "ui"},
-                                             {"implot", "ui"},
-                                             {"imcmd_", "ui"},
-                                             {"FLIP.h", "measure"},
-                                             {"Eigen/", "optics, measure, inverse"},
-                                             {"qrencode", "inverse"},
-                                             {"ImGuizmo", "ui"}};
+const std::vector<LibraryRule> library_rules{{"CL/", "compute"},      {"OpenImageIO/", "image"},
+                                             {"lcms2.h", "image"},    {"assimp/", "scene"},
+                                             {"embree", "scene"},     {"CLI/", "cli"},
+                                             {"yaml-cpp/", "optics"}, {"GLFW/", "ui"},
+                                             {"GL/", "ui"},           {"imgui", "ui"},
+                                             {"implot", "ui"},        {"imcmd_", "ui"},
+                                             {"FLIP.h", "measure"},   {"Eigen/", "optics, measure, inverse"},
+                                             {"qrencode", "inverse"}, {"ImGuizmo", "ui"}};
 
 /// What is wrong with one include of a file of `folder`; empty where nothing is.
 std::string break_of(const std::string& folder, const std::string& included, const FolderTable& table) {

@@ -46,7 +46,7 @@ TEST(PresetReading, AWordStandsForAWhiteThatIsFitted) {
   EXPECT_TRUE(preset::parse_preset(preset::to_json(p), "a.json") == p);
   EXPECT_EQ(parse(R"("white":3)", {"white=auto"}).white, std::nullopt);
   EXPECT_THROW(parse(R"("white":"auto","reference":"a.exr")"), Error) << "whose white is not known";
-  const Preset relit = parse(R"("spectral":{"relight":true})");
+  const Preset relit = parse(R"("white":1,"spectral":{"relight":true})");
   Preset brighter = relit;
   brighter.white = 2;
   EXPECT_TRUE(engine::adoptable(relit, brighter));

@@ -16,7 +16,7 @@
 namespace nephroid::environment {
 namespace {
 
-/// The quanta of a photon with an equal share of all power: 2^30 photons of 2^6 times as much fit.
+/// The quanta of a photon with the mean share of all power: 2^30 photons of 2^6 times as much fit.
 constexpr double quanta_of_photon = 0x1p24;
 
 } // namespace
@@ -61,7 +61,7 @@ Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t 
       light_rgb_(compute::Buffer(context, "white light", white_light())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))),
       bake_(std::move(before)) {
-  // kernels/lights/targets.h spreads photons over the discs of all targets, which may overlap.
+  // The light through the discs of all targets, as if none overlapped, is what photons of mean power carry.
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2

@@ -84,7 +84,7 @@ void SceneView::set_caustics_seconds(double seconds) {
 
 void SceneView::make_renderer(const preset::Preset& preset) {
   renderer_.reset(); // frees its device memory for the next
-  renderer_.emplace(*task_, preset.white.value(), preset.seed, context_);
+  renderer_.emplace(*task_, preset.white.value_or(1), preset.seed, context_);
   if (caustics_) renderer_->set_caustics(*caustics_);
 }
 
@@ -125,7 +125,7 @@ bool SceneView::go_on_with(const preset::Preset& preset, const Caster& caster) {
     renderer_->turn_environment(preset.scene.environment->rotate_deg);
     begins = true;
   }
-  renderer_->set_white(preset.white.value());
+  renderer_->set_white(preset.white.value_or(1));
   shown_ = preset;
   return begins;
 }
