@@ -97,6 +97,11 @@ Curve formula_curve(const YAML::Node& block, int formula, const std::string& fil
                     fmt::format("expected at most {}", most));
 
   const std::size_t count = coefficients.size();
+  const bool may_be_constant = formula == 3 || formula == 5 || formula == 7; // polynomials
+  if (count == 1 && !may_be_constant)
+    throw bad_input(place(file, values), fmt::format("formula {} has 1 coefficient", formula),
+                    "expected the terms after it, too: without them n is the same at all wavelengths",
+                    "where that is meant, the type is \"constant\"");
   if (const Group group = group_of(formula, count);
       count + 1 < group.first + group.size && coefficients[group.first - 1] != 0)
     throw bad_input(place(file, values), fmt::format("formula {} has {} coefficients", formula, count),

@@ -36,11 +36,20 @@ std::string ball(double radius, const std::string& inside, const std::string& ou
 TEST_F(MitsubaImport, EveryValueThatIsLeftOutIsSaid) {
   imported("<shape type='sphere'>\n<float name='glitter' value='1'/>\n"
            "<bsdf type='diffuse'><rgb name='reflectance' value='.1'/>\n<float name='sheen' value='1'/></bsdf></shape>\n"
-           "<emitter type='point'><float name='sampling_weight' value='2'/>\n<float name='fade' value='1'/></emitter>");
-  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("in.xml:3: its \"glitter\" is left out"),
+           "<emitter type='point'><float name='sampling_weight' value='2'/>\n<float name='fade' value='1'/></emitter>\n"
+           "<shape type='cube'><emitter type='area'><rgb name='radiance' value='1'/>\n"
+           "<boolean name='hidden' value='true'/></emitter>\n<bsdf type='conductor'>"
+           "<string name='material' value='Au'/><float name='specular_reflectance' value='1'/>"
+           "<float name='ext_eta' value='1'/></bsdf></shape>\n"
+           "<shape type='cube'><bsdf type='conductor'>\n"
+           "<string name='material' value='Au'/><float name='ext_eta' value='1.33'/></bsdf></shape>");
+  EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("in.xml:9: its \"hidden\" is left out"),
+                                        HasSubstr("in.xml:11: its ext_eta is left out: around it is air"),
+                                        HasSubstr("in.xml:3: its \"glitter\" is left out"),
                                         HasSubstr("in.xml:5: its \"sheen\" is left out"),
                                         HasSubstr("in.xml:7: its \"fade\" is left out")}));
   EXPECT_THAT(made.notes, Each(Not(AnyOf(HasSubstr("reflectance"), HasSubstr("sampling_weight")))));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("ext_eta")).Times(1));
 }
 
 TEST_F(MitsubaImport, ADoubledFileIsRefused) {

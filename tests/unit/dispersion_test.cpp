@@ -194,7 +194,7 @@ TEST(Dispersion, AnomalousTablesAreReadWithTheirAbsorption) {
 
 // A factor of 0 needs nothing beside it; what a formula has no groups of may end anywhere.
 TEST(Dispersion, CoefficientsMayEndWhereNothingIsMissing) {
-  for (const char* rest : {"formula 4\n    coefficients: 2.25 0", "formula 4\n    coefficients: 2.25",
+  for (const char* rest : {"formula 4\n    coefficients: 2.25 0", "formula 3\n    coefficients: 2.25",
                            "formula 7\n    coefficients: 1.5 0", "formula 9\n    coefficients: 2.25 0 0 0"})
     EXPECT_NEAR(n_at(from_yaml(fmt::format("  - type: {}\n    wavelength_range: 0.3 2.5\n", rest)), 500), 1.5, 1e-12)
         << rest;
@@ -392,6 +392,9 @@ const Malformed cases[] = {
      "f.yml:2: the entry has no \"wavelength_range\""},
     {"FormulaWithoutCoefficients", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 2.5\n",
      "f.yml:2: the entry has no \"coefficients\""},
+    {"FormulaCutAfterItsFirst", formula(4, "0.3 2.5", "1"),
+     "f.yml:4: formula 4 has 1 coefficient; expected the terms after it, too: without them n is the same at all "
+     "wavelengths; where that is meant, the type is \"constant\""},
     {"RangeOfOne", formula(1, "0.3", "0"), no_range("0.3")},
     {"RangeTurned", formula(1, "2.5 0.3", "0"), no_range("2.5 0.3")},
     {"RangeOfWords", formula(1, "0.3 to 2.5", "0"), no_number(3, "to")},

@@ -239,9 +239,10 @@ private:
     if (!give_form(node, type, shape)) return d_.note(shape.where, "the shape " + type + " is left out");
     note_unasked(scene_, node);
     shape.material = mitsuba_material(scene_, node, &shape.back);
-    if (const xml_node emitter = file_.object(node, "emitter"))
+    if (const xml_node emitter = file_.object(node, "emitter")) {
       shape.glow = colour(emitter, "radiance", 1);
-    else if (shape.material.empty())
+      note_unasked(scene_, emitter);
+    } else if (shape.material.empty())
       return; // light goes on through it
     d_.shapes.push_back(std::move(shape));
   }

@@ -234,6 +234,13 @@ Unwrapped unwrapped(MitsubaScene& scene, xml_node node, int blends = 0) {
   return found;
 }
 
+/// Whether a factor of reflection or an index of refraction is given that is not 1, as it is by itself.
+bool is_given_and_not_one(MitsubaScene& scene, xml_node node, const char* name) {
+  const xml_node given = scene.file.child(node, name);
+  const auto colour = given ? colour_of(scene, given) : std::nullopt;
+  return given && (!colour || values_of(*colour) != optics::constant_spectrum(1));
+}
+
 /// By n and k, or by name; nothing for a perfect mirror, and with a note where it is not to be had.
 std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const std::string& key) {
   const MitsubaFile& file = scene.file;
@@ -244,8 +251,9 @@ std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const 
   if (!made && eta && k)
     if (const auto n = colour_of(scene, eta), extinction = colour_of(scene, k); n && extinction)
       made = metal_of(scene.d, key, values_of(*n), values_of(*extinction));
-  if (made && file.child(node, "specular_reflectance"))
+  if (made && is_given_and_not_one(scene, node, "specular_reflectance"))
     scene.d.note(where, "its specular_reflectance is left out: the metal's own counts");
+  if (is_given_and_not_one(scene, node, "ext_eta")) scene.d.note(where, "its ext_eta is left out: around it is air");
   if (!made && (eta || (!name.empty() && name != "none")))
     scene.d.note(where, "the metal is left out: a mirror of its specular_reflectance takes its place");
   return made;
@@ -447,9 +455,8 @@ std::string key_of(MitsubaScene& scene, const Unwrapped& from, xml_node medium) 
     glass.tint->spectrum = values_of(*glass.tint);
     for (double& part : *glass.tint->spectrum) part = std::sqrt(std::max(part, 0.0));
   }
-  if (const xml_node given = file.child(node, "specular_reflectance"))
-    if (const auto colour = colour_of(scene, given); !colour || values_of(*colour) != optics::constant_spectrum(1))
-      scene.d.note(where, "its specular_reflectance is left out: it reflects as clear glass does");
+  if (is_given_and_not_one(scene, node, "specular_reflectance"))
+    scene.d.note(where, "its specular_reflectance is left out: it reflects as clear glass does");
   if (medium && !thin) glass.absorption = absorption_of(scene, medium);
   note_unasked(scene, node);
   scene.d.dielectrics[key] = glass;
