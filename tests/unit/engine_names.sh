@@ -10,4 +10,5 @@ names="$names|engine [\"\\\\]*($engines)\b|engine [123]\b"
 names="$names|\b($engines)_panels|: ($engines)\"|\b($engines) (run|preset)|(run|plan|segment) ($engines)/"
 grep -rE --include='*.h' --include='*.cpp' -n '' app ui | sed 's|//.*||' | grep -vE "^[^:]*/($engines)/" |
   grep -E "$names" |
-  grep -vE '^app/photons/|glm::inverse|^app/(scene|tracing|preset)/.*"environment"|scene[./]environment|Kind::environment'
+  grep -vE '^app/photons/|glm::inverse|^app/(scene|tracing|preset)/.*"environment"' |
+  grep -vE 'scene[./]environment|Kind::environment'
