@@ -74,7 +74,7 @@ inline void describe(preset::Fields& v, Settings& s) {
           s.refine);
   v.field("cast", "Whether caustics fall on surfaces.", s.cast);
   v.field("extinction",
-          "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
+          "How much light a medium around the object takes, as fog or smoke: it shows caustics in the air. 0: none.",
           s.extinction, {.unit = "1 / unit", .bounds = within(0, 1000)});
   v.field("albedo", "Which part of that light the medium scatters.", s.albedo, {.bounds = within(0, 1)});
   v.field("phase", "Where the medium scatters light.", s.phase);

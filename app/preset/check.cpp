@@ -114,10 +114,8 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
 
 void check_environment(const Environment& e, const std::string& pointer, const Where& where) {
   if (e.type != Environment::Type::sky) return;
-  if (e.place.has_value() == e.sun_direction.has_value())
-    throw bad_input(where(pointer),
-                    e.place ? "has both 'place' and 'sun_direction'" : "has neither 'place' nor 'sun_direction'",
-                    "expected exactly one of them");
+  if (e.place && e.sun_direction)
+    throw bad_input(where(pointer), "has both 'place' and 'sun_direction'", "expected one of them");
   if (e.sun_direction) check_direction(*e.sun_direction, child(pointer, "sun_direction"), where);
   if (e.place && !days_since_2000(e.place->date))
     throw bad_input(where(child(child(pointer, "place"), "date")), "is " + in_quotes(e.place->date),

@@ -216,7 +216,8 @@ void describe(Fields& v, Environment& e) {
   if (e.type == Type::constant)
     v.field("colour", "Linear sRGB.", e.colour, {.bounds = within(0, 1e6), .required = true});
   if (e.type == Type::sky) {
-    v.field("place", "Where and when the sun is seen; give either this or sun_direction.", e.place);
+    v.field("place", "Where and when the sun is seen. Without this and sun_direction it is 45 degrees up in the south.",
+            e.place);
     v.field("sun_direction", "The way to the sun: north is -z, east is +x.", e.sun_direction,
             {.bounds = position_bounds});
     v.field("turbidity", "How hazy the air is: 2 is very clear, 3 clear, 6 light haze.", e.turbidity,

@@ -260,10 +260,11 @@ struct Environment {
   double rotate_deg = 0; ///< file, sky: about +y, counterclockwise as seen from above
   bool lights = false;   ///< engine 1: false: a backdrop, as where lamps light a scene before a picture
   double turbidity = 3;  ///< sky: 2 is very clear, 10 is haze
-  std::optional<PlaceAndTime> place = {}; ///< sky: exactly one of place and sun_direction is given
-  std::optional<Vec3> sun_direction = {}; ///< sky: to the sun, before rotate_deg; north is -z, east is +x
-  double sun_scale = 1;                   ///< sky: factor of the sun's light, which is a directional light; 0: none
-  double albedo = 0.2;                    ///< sky: of the ground below the horizon
+  std::optional<PlaceAndTime> place = {}; ///< sky: only one of place and sun_direction is given
+  /// sky: to the sun, before rotate_deg; north is -z, east is +x. Without it and place: (0, 1, 1).
+  std::optional<Vec3> sun_direction = {};
+  double sun_scale = 1; ///< sky: factor of the sun's light, which is a directional light; 0: none
+  double albedo = 0.2;  ///< sky: of the ground below the horizon
   bool operator==(const Environment&) const = default;
 };
 

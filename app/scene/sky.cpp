@@ -106,7 +106,7 @@ double over_zenith(const PerezTable& terms, double t, double zenith, double from
 /// Of a sky: before it is turned.
 SunPlace place_of(const preset::Environment& sky) {
   if (sky.place) return sun_place(*sky.place);
-  const glm::dvec3 to = glm::normalize(to_dvec3(*sky.sun_direction));
+  const glm::dvec3 to = glm::normalize(to_dvec3(sky.sun_direction.value_or(preset::Vec3{0, 1, 1})));
   return {std::asin(std::clamp(to.y, -1.0, 1.0)) / degree, std::atan2(to.x, -to.z) / degree};
 }
 
