@@ -234,6 +234,55 @@ TEST_F(ParametersTest, TheSearchFindsNamesUnitsAndHelp) {
   EXPECT_FALSE(panel().place_of(fov)) << "closed, as it was before the search";
 }
 
+TEST_F(ParametersTest, TheSearchOffersWhatThePresetHasNot) {
+  open();
+  const std::string before = text();
+  search("sun");
+  EXPECT_TRUE(panel().place_of("Add sun"));
+  EXPECT_TRUE(panel().place_of("Add sky"));
+  EXPECT_FALSE(panel().place_of("Add lamp"));
+  click("make scene.environment: sky");
+  EXPECT_EQ(at("/scene/environment/type"), "sky");
+  EXPECT_THAT(problems(), IsEmpty());
+  EXPECT_TRUE(panel().place_of(white)) << "the search is over";
+  search("turbidity");
+  EXPECT_TRUE(panel().place_of("/scene/environment/turbidity"));
+  EXPECT_FALSE(panel().place_of("make scene.environment: sky"));
+  undo();
+  EXPECT_EQ(text(), before);
+  search("angular diameter");
+  click("make scene.lights: directional");
+  EXPECT_EQ(at("/scene/lights/1/type"), "directional");
+  EXPECT_THAT(problems(), IsEmpty());
+  search("no such thing");
+  EXPECT_TRUE(panel().place_of("nothing"));
+}
+
+TEST_F(ParametersTest, TheSearchEndsWithItsScene) {
+  open();
+  search("refraction angle");
+  EXPECT_FALSE(panel().place_of(white));
+  open();
+  frames(2);
+  EXPECT_TRUE(panel().place_of(white));
+}
+
+TEST_F(ParametersTest, TabGoesToTheNextNumber) {
+  open();
+  const std::string position = "/scene/camera/position/";
+  begin_typing(position + "0", "3");
+  for (const char* const next : {"4", "5"}) {
+    press(ImGuiKey_Tab);
+    frames(3);
+    retype(next);
+  }
+  press(ImGuiKey_Tab, ImGuiMod_Shift);
+  frames(3);
+  retype("6");
+  press(ImGuiKey_Enter);
+  EXPECT_EQ(at("/scene/camera/position"), Json::array({3, 6, 5}));
+}
+
 TEST_F(ParametersTest, ItemsOfAListAreAddedCopiedMovedAndRemoved) {
   open();
   const std::string before = text(), lights = "/scene/lights", objects = "/scene/objects";

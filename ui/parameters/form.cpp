@@ -9,6 +9,7 @@
 #include "preset/field.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -184,7 +185,8 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
 void ValueWidgets::draw_number(const Number& number, const Json& value, const std::string& pointer) {
   const double now = value.is_number() ? value.get<double>() : 0;
   const bool possible = value.is_number() && number.bounds.contain(now) && (!number.whole || std::trunc(now) == now);
-  if (!possible || number_typed_ == pointer) {
+  // Where Shift+Tab went to a number above, what was typed here is taken in this frame.
+  if (!possible || number_typed_ == pointer || typed_at_ == pointer) {
     if (number_typed_ == pointer && !number_focused_) ImGui::SetKeyboardFocusHere();
     draw_text(pointer, value, number.width, number_from);
     if (number_typed_ != pointer) return;
@@ -195,6 +197,8 @@ void ValueWidgets::draw_number(const Number& number, const Json& value, const st
     return;
   }
   ImGui::SetNextItemWidth(number.width);
+  ImGui::PushItemFlag(ImGuiItemFlags_NoTabStop, false);
+  ImGui::PushItemFlag(ImGuiItemFlags_Inputable, true); // so that Tab activates it
   constexpr ImGuiSliderFlags flags = ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat;
   const std::string label = "##" + pointer;
   const double step = step_of(now, number.whole);
@@ -214,15 +218,23 @@ void ValueWidgets::draw_number(const Number& number, const Json& value, const st
                           flags))
       dragged = number.whole ? Json(std::llround(rounded(to, step))) : Json(rounded(to, step));
   }
+  ImGui::PopItemFlag();
+  ImGui::PopItemFlag();
   form_.note(pointer);
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (ImGui::IsItemActivated()) form_.gestures.begin();
+  const auto type_it = [&] {
+    number_typed_ = pointer;
+    number_focused_ = false;
+  };
+  if (ImGui::IsItemActivated()) {
+    if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) return type_it(); // by Tab or Enter
+    form_.gestures.begin();
+  }
   if (!dragged.is_null() && number.bounds.contain(dragged.get<double>()))
     form_.ask(dotted(pointer), pointer, dragged, true);
   if (!ImGui::IsItemDeactivated()) return;
   if (ImGui::IsItemDeactivatedAfterEdit()) return form_.end_gesture();
-  number_typed_ = pointer;
-  number_focused_ = false;
+  type_it();
 }
 
 std::optional<std::string>
@@ -230,7 +242,9 @@ ValueWidgets::type_text(const std::string& id, const std::string& before, float 
                         const std::function<std::optional<Problem>(const std::string&)>& problem) {
   std::string text = before;
   ImGui::SetNextItemWidth(width);
+  ImGui::PushItemFlag(ImGuiItemFlags_NoTabStop, false);
   ImGui::InputTextWithHint(("##text" + id).c_str(), "", &text, ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::PopItemFlag();
   form_.note(id);
   if (ImGui::IsItemActive()) {
     if (typed_at_ == id && typed_ == text) return std::nullopt;

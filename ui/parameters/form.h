@@ -37,6 +37,15 @@ public:
   /// Whether a field of an object is, which may be an item of `field`.
   bool wants_any(const preset::Outline& field, const Json& object, const std::string& pointer) const;
 
+  /// What has the words that are looked for and is not in the preset: an object of a type that would be made.
+  struct Offer {
+    std::string name;          ///< "scene.environment: sky"
+    std::string help;          ///< a sentence: of the type, or of the field that was looked for
+    std::string pointer, made; ///< where a value is put, and where in it the new object is
+    Json value;
+  };
+  std::vector<Offer> offers() const;
+
   std::string search; ///< words
   bool only_changed = false;
   Draft draft;
@@ -48,6 +57,10 @@ public:
   std::optional<Problem> refused; ///< by the run
 
 private:
+  /// Adds what there is in an object of these fields.
+  void offer_in(const std::vector<preset::Outline>& fields, const Json& object, const std::string& pointer,
+                std::vector<Offer>& offers) const;
+
   struct PendingEdit {
     std::string label, pointer;
     Json value;

@@ -2,11 +2,19 @@
 #include "ui/parameters/panel.h"
 
 #include "preset/origins.h"
+#include "ui/widgets/action.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace nephroid::ui {
 
 void ParametersPanel::draw(const Context& context) {
   form_.draft.follow(*context.preset());
+  if (std::exchange(opened_, &context.edits->opened()) != &context.edits->opened()) {
+    form_.search.clear();
+    form_.only_changed = false;
+  }
   form_.tasks = &context.tasks;
   form_.balls = &context.balls;
   form_.selected = pointer_of(context.selection());
@@ -26,14 +34,19 @@ void ParametersPanel::draw(const Context& context) {
                           ImGuiTableFlags_Resizable | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV)) {
       ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 2);
       ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 3);
+      ImGui::PushItemFlag(ImGuiItemFlags_NoTabStop, true); // Tab goes on to the next number or text
       rows_.draw_fields(preset::outline(form_.draft.value()), form_.draft.value(), "");
+      ImGui::PopItemFlag();
       ImGui::EndTable();
     }
+    const std::vector<Form::Offer> offers = form_.offers();
     if (!form_.finds_any()) {
       draw_wrapped(colour::quiet_text, form_.search.empty() ? "Every field is as it is by default."
-                                                            : "No name, unit or help has these words.");
+                                       : offers.empty()     ? "No name, unit or help has these words."
+                                                            : "No field of this preset has these words.");
       form_.note("nothing");
     }
+    draw_offers(context, offers);
     ImGui::PopID();
   }
   ImGui::EndChild();
@@ -52,6 +65,32 @@ void ParametersPanel::follow_run(const Context& context) {
   if (!error) return;
   const std::string field = preset::field_of(*context.preset(), error->location());
   if (!field.empty()) form_.refused = {field, field, error->text()};
+}
+
+/// What a search finds beyond the preset: actions that add it, then types that have it.
+void ParametersPanel::draw_offers(const Context& context, const std::vector<Form::Offer>& offers) {
+  constexpr std::size_t most = 12;
+  if (form_.search.empty()) return;
+  ImGui::Spacing();
+  for (const Action& action : actions())
+    if (action.menu == "Add" && has_words(action.name + " " + action.help, form_.search)) {
+      action_button(action.name.c_str(), context);
+      places_.note(action.name);
+      ImGui::SameLine();
+      draw_wrapped(colour::quiet_text, action.help);
+    }
+  for (std::size_t i = 0; i < std::min(offers.size(), most); ++i) {
+    const Form::Offer& offer = offers[i];
+    if (places_.small_button(("Make " + offer.name).c_str(), "make " + offer.name)) {
+      form_.ask(offer.name, offer.pointer, offer.value);
+      form_.search.clear();
+      form_.only_changed = false;
+      form_.reveal = offer.made;
+    }
+    ImGui::SameLine();
+    draw_wrapped(colour::quiet_text, offer.help);
+  }
+  if (offers.size() > most) ImGui::TextDisabled("and %zu more", offers.size() - most);
 }
 
 void ParametersPanel::draw_top() {

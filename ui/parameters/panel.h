@@ -61,10 +61,12 @@ public:
 private:
   void follow_run(const Context& context);
   void draw_top();
+  void draw_offers(const Context& context, const std::vector<Form::Offer>& offers);
 
   Form form_{title, places_};
   FieldRows rows_{form_};
-  Selection revealed_; ///< what was selected when its fields were brought into sight last
+  const preset::Preset* opened_ = nullptr; ///< what was opened last; with another one the search is over
+  Selection revealed_;                     ///< what was selected when its fields were brought into sight last
 };
 
 } // namespace nephroid::ui
