@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Backs, blends and masks of surfaces, crops of the picture, and what moves.
+// Metals, backs, blends and masks of surfaces, crops of the picture, and what moves.
 #include "scatter/spectra.h"
+#include "scene/scene.h"
 #include "tests/import/imports_scenes.h"
 
 #include <glm/glm.hpp>
@@ -20,6 +21,24 @@ std::string matt(double reflectance) {
 }
 std::string twosided(const std::string& bsdfs) { return "<bsdf type='twosided'>" + bsdfs + "</bsdf>"; }
 std::string rectangle(const std::string& bsdf) { return "<shape type='rectangle'>" + bsdf + "</shape>"; }
+
+TEST_F(ImportedSurfaces, OfMetalAreConductors) {
+  const preset::Preset p = mitsuba(R"(<shape type="cube"><bsdf type="conductor"><string name="material" value="Au"/>
+    </bsdf></shape><shape type="cube"><bsdf type="roughconductor" id="own"><spectrum name="eta" value="400:0.5, 700:0.2"/>
+    <spectrum name="k" value="3"/></bsdf></shape><shape type="cube"><bsdf type="conductor">
+    <string name="material" value="none"/></bsdf></shape><shape type="cube"><bsdf type="conductor">
+    <string name="material" value="Cr"/></bsdf></shape>)");
+  EXPECT_EQ(material_of(p, 0).type, preset::Material::Type::conductor);
+  EXPECT_EQ(material_of(p, 0).metal, "gold");
+  EXPECT_EQ(material_of(p, 1).type, preset::Material::Type::conductor);
+  EXPECT_THAT(read_file(folder.path() / material_of(p, 1).metal), HasSubstr("0.55 0.35 3"));
+  EXPECT_EQ(scene::load_scene(p).materials.size(), p.scene.materials.size()) << "beyond 400 and 700 nm n is held";
+  EXPECT_EQ(material_of(p, 2).type, preset::Material::Type::mirror);
+  EXPECT_EQ(material_of(p, 3).type, preset::Material::Type::mirror);
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of its specular_reflectance")));
+  EXPECT_NEAR(material_of(p, 1).roughness, std::sqrt(0.1), 1e-12) << "Mitsuba's alpha is .1 where nothing is said";
+  EXPECT_THAT(made.notes, Contains(HasSubstr("its facets have the distribution GGX here, not Beckmann's")));
+}
 
 // Mitsuba's surfaces are black from behind where they are not twosided, and a twosided may have two materials. The back
 // is a surface of its own: behind the front, on the side that its normal leaves.

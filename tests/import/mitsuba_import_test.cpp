@@ -312,24 +312,6 @@ TEST_F(MitsubaImport, PlasticHasItsCoat) {
   EXPECT_LT(material_of(p, 1).reflectance.value, 0.4) << "light that goes back and forth below the coat";
 }
 
-TEST_F(MitsubaImport, MetalsAreConductors) {
-  const preset::Preset p = imported(R"(<shape type="cube"><bsdf type="conductor"><string name="material" value="Au"/>
-    </bsdf></shape><shape type="cube"><bsdf type="roughconductor" id="own"><spectrum name="eta" value="400:0.5, 700:0.2"/>
-    <spectrum name="k" value="3"/></bsdf></shape><shape type="cube"><bsdf type="conductor">
-    <string name="material" value="none"/></bsdf></shape><shape type="cube"><bsdf type="conductor">
-    <string name="material" value="Cr"/></bsdf></shape>)");
-  EXPECT_EQ(material_of(p, 0).type, Type::conductor);
-  EXPECT_EQ(material_of(p, 0).metal, "gold");
-  EXPECT_EQ(material_of(p, 1).type, Type::conductor);
-  EXPECT_THAT(read_file(folder.path() / material_of(p, 1).metal), HasSubstr("0.55 0.35 3"));
-  EXPECT_EQ(scene::load_scene(p).materials.size(), p.scene.materials.size()) << "beyond 400 and 700 nm n is held";
-  EXPECT_EQ(material_of(p, 2).type, Type::mirror);
-  EXPECT_EQ(material_of(p, 3).type, Type::mirror);
-  EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is left out: a mirror of its specular_reflectance")));
-  EXPECT_NEAR(material_of(p, 1).roughness, std::sqrt(0.1), 1e-12) << "Mitsuba's alpha is .1 where nothing is said";
-  EXPECT_THAT(made.notes, Contains(HasSubstr("its facets have the distribution GGX here, not Beckmann's")));
-}
-
 TEST_F(MitsubaImport, SpectraStaySpectra) {
   folder.write("lamp.spd", "# nm, W\n400 1\n500, 3\n\n600 0\n");
   const std::string at = "<shape type=\"sphere\"/>", light = R"(<emitter type="point">)";
