@@ -12,12 +12,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nephroid::preset {
 namespace {
 
+/// What other programs and everyday language call things, and our words for them.
+constexpr std::pair<std::string_view, std::string_view> other_words[] = {
+    {"glass", "dielectric"},    {"metal", "conductor"},    {"matt", "diffuse"},         {"matte", "diffuse"},
+    {"lambertian", "diffuse"},  {"plane", "quad"},         {"rectangle", "quad"},       {"sun", "directional"},
+    {"distant", "directional"}, {"hdri", "file"},          {"envmap", "file"},          {"background", "environment"},
+    {"ior", "dispersion"},      {"int_ior", "dispersion"}, {"refraction", "dispersion"}};
+
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  std::string near = nearest(word.substr(0, 64), known);
+  std::string near;
+  for (const auto& [other, ours] : other_words)
+    if (word == other && std::ranges::count(known, ours) > 0) near = ours;
+  if (near.empty()) near = nearest(word.substr(0, 64), known);
   if (near.empty() && word.size() >= 3) // the unit left out: "fov" for "fov_deg"
     if (const auto longer = std::ranges::find_if(known, [&](const std::string& k) { return k.starts_with(word); });
         longer != known.end())

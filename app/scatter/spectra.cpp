@@ -72,22 +72,17 @@ std::filesystem::path find_dispersion(const std::string& name, const FileFinder&
     const bool may_be_a_short_name =
         std::filesystem::path(name).extension().string().size() != 4 || name.ends_with(".yml");
     if (!missing || !may_be_a_short_name) throw;
-    throw FileNotFound(
-        where, name,
-        fmt::format("{}; the program comes with {}", missing->looked_in(), fmt::join(shipped_materials(), ", ")));
+    const std::set<std::string> materials = shipped_materials();
+    const std::string near = nearest(name, std::vector(materials.begin(), materials.end()));
+    throw FileNotFound(where, name,
+                       fmt::format("{}; the program comes with {}{}", missing->looked_in(), fmt::join(materials, ", "),
+                                   near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
   }
 }
 
 optics::DispersionCurve load_dispersion(const std::string& name) {
-  if (is_there(name)) return optics::load_dispersion(name);
-  try {
-    return optics::load_dispersion(find_dispersion(name, FileFinder(), name));
-  } catch (const FileNotFound& error) {
-    const std::set<std::string> materials = shipped_materials();
-    const std::string material = nearest(name, std::vector(materials.begin(), materials.end()));
-    if (material.empty()) throw;
-    throw error.noting(fmt::format("did you mean '{}'?", material));
-  }
+  return optics::load_dispersion(is_there(name) ? std::filesystem::path(name)
+                                                : find_dispersion(name, FileFinder(), name));
 }
 
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder,

@@ -251,8 +251,9 @@ TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefo
                    "DATA:\n  - type: tabulated n\n    data: |\n        0.40 1.25\n        0.70 1.25\n");
   EXPECT_EQ(n_at_d(), 1.25);
   dispersion.file = "N-BK77";
-  EXPECT_THAT(test::refusal_of([&] { n_at_d(); }), AllOf(HasSubstr("p.json#/n: 'N-BK77' not found; looked in "),
-                                                         HasSubstr("the program comes with"), HasSubstr(", N-BK7, ")));
+  EXPECT_THAT(test::refusal_of([&] { n_at_d(); }),
+              AllOf(HasSubstr("p.json#/n: 'N-BK77' not found; looked in "), HasSubstr("the program comes with"),
+                    HasSubstr(", N-BK7, "), HasSubstr("; did you mean 'N-BK7'?")));
 }
 
 TEST(Scene, ShippedMaterialsAreReadByTheNamesOfPresets) {
