@@ -40,6 +40,19 @@ TEST_F(ImportedSurfaces, OfMetalAreConductors) {
   EXPECT_THAT(made.notes, Contains(HasSubstr("its facets have the distribution GGX here, not Beckmann's")));
 }
 
+// Light of (n - 1)^2 + k^2 over (n + 1)^2 + k^2 comes back: .8 of n = 1 and k = 4.
+TEST_F(ImportedSurfaces, OfMetalWithAFactorAreMirrors) {
+  const preset::Preset p = mitsuba(R"(<shape type="cube"><bsdf type="roughconductor"><float name="eta" value="1"/>
+    <float name="k" value="4"/><float name="specular_reflectance" value=".3"/><float name="alpha" value=".25"/></bsdf>
+    </shape><shape type="cube"><bsdf type="conductor"><string name="material" value="Ag"/>
+    <float name="specular_reflectance" value=".5"/></bsdf></shape>)");
+  EXPECT_EQ(material_of(p, 0).type, preset::Material::Type::mirror);
+  EXPECT_NEAR(reflectance(p, 0), 0.24, 1e-6);
+  EXPECT_NEAR(material_of(p, 0).roughness, 0.5, 1e-12);
+  EXPECT_NEAR(reflectance(p, 1), 0.5 * 0.98, 0.01) << "silver";
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the metal is a mirror that reflects alike at all angles")));
+}
+
 // Mitsuba's surfaces are black from behind where they are not twosided, and a twosided may have two materials. The back
 // is a surface of its own: behind the front, on the side that its normal leaves.
 TEST_F(ImportedSurfaces, HaveABackOfTheirOwn) {

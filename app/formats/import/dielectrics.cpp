@@ -2,6 +2,8 @@
 #include "formats/import/dielectrics.h"
 
 #include "base/files.h"
+#include "optics/dispersion_file.h"
+#include "optics/fresnel.h"
 #include "scatter/spectra.h"
 #include "scene/scene.h"
 
@@ -292,6 +294,23 @@ preset::Material metal_of(const std::string& file) {
   metal.type = preset::Material::Type::conductor;
   metal.metal = file;
   return metal;
+}
+
+preset::Material mirror_of(Description& description, const preset::Material& conductor, const DescribedColour& factor) {
+  const auto own = description.files.find(conductor.metal);
+  const optics::DispersionCurve curve = own == description.files.end()
+                                            ? scatter::load_dispersion(conductor.metal)
+                                            : optics::parse_dispersion(own->second, conductor.metal);
+  if (own != description.files.end()) description.files.erase(own);
+  const optics::Spectrum n = sample_n(curve, optics::Extrapolation::hold),
+                         k = sample_k(curve, optics::Extrapolation::hold);
+  DescribedColour colour;
+  colour.spectrum = values_of(factor);
+  for (std::size_t w = 0; w < n.size(); ++w) (*colour.spectrum)[w] *= optics::conductor_reflectance(1, 1, {n[w], k[w]});
+  preset::Material mirror;
+  mirror.type = preset::Material::Type::mirror;
+  mirror.reflectance = reflectance_of(colour);
+  return mirror;
 }
 
 std::optional<preset::Material> metal_of_element(std::string_view element) {

@@ -39,6 +39,9 @@ std::optional<preset::Material> metal_of(Description& description, const std::st
                                          const optics::Spectrum& file_n, const optics::Spectrum& file_k);
 /// A conductor by a dispersion file or a shipped metal.
 preset::Material metal_of(const std::string& file);
+/// The mirror that a conductor of metal_of is head on, times `factor`; its reflectance is the same at all angles. A
+/// file of the import that the conductor was made by is taken back.
+preset::Material mirror_of(Description& description, const preset::Material& conductor, const DescribedColour& factor);
 /// The shipped metal of that chemical formula: Au, Ag, Cu, Al, CuZn.
 std::optional<preset::Material> metal_of_element(std::string_view element);
 

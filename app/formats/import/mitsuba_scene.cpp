@@ -251,8 +251,10 @@ std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const 
   if (!made && eta && k)
     if (const auto n = colour_of(scene, eta), extinction = colour_of(scene, k); n && extinction)
       made = metal_of(scene.d, key, values_of(*n), values_of(*extinction));
-  if (made && is_given_and_not_one(scene, node, "specular_reflectance"))
-    scene.d.note(where, "its specular_reflectance is left out: the metal's own counts");
+  if (made && is_given_and_not_one(scene, node, "specular_reflectance")) {
+    scene.d.note(where, "with its specular_reflectance the metal is a mirror that reflects alike at all angles");
+    made = mirror_of(scene.d, *made, mitsuba_colour(scene, node, "specular_reflectance", 1));
+  }
   if (is_given_and_not_one(scene, node, "ext_eta")) scene.d.note(where, "its ext_eta is left out: around it is air");
   if (!made && (eta || (!name.empty() && name != "none")))
     scene.d.note(where, "the metal is left out: a mirror of its specular_reflectance takes its place");
