@@ -324,6 +324,17 @@ TEST_F(PictureFiles, APngHasTheGammaThatItSays) {
   EXPECT_NEAR(light("linear.png", bytes)[0], 128 / 255.0, 1e-5);
 }
 
+// In the same place, a profile p of two letters that are no zlib stream.
+TEST_F(PictureFiles, APngWithADamagedProfileSaysIt) {
+  write_png_bytes(folder.path() / "p.png", 1, 1, {128, 128, 128, 255});
+  std::string bytes = read_file(folder.path() / "p.png");
+  EXPECT_THAT(read("plain.png", bytes).notes, IsEmpty());
+  bytes.insert(33, bytes_of("00000005694343507000007a7a546468dd"));
+  const Image image = read("damaged.png", bytes);
+  EXPECT_THAT(image.notes, ElementsAre("its colour profile cannot be read; its colours are taken as sRGB's"));
+  EXPECT_NEAR(rgb_of(image, "p").values[0], decoded_srgb(128 / 255.0), 1e-6);
+}
+
 TEST(PixelOrders, AreMirroredAndTurned) {
   const PixelOrder upright = pixel_order(1);
   EXPECT_EQ(mirrored(upright), pixel_order(2));

@@ -177,6 +177,20 @@ void add_webp_chunks(const std::string& file, ImageSpec& spec) {
   }
 }
 
+/// Whether a PNG has a chunk of this name before its pixels. OpenImageIO says nothing of a profile that is damaged.
+bool png_has(const std::string& file, std::string_view chunk) {
+  std::ifstream from(file, std::ios::binary);
+  constexpr std::streamoff first_chunk = 8;
+  std::array<unsigned char, 8> head{};
+  for (std::streamoff at = first_chunk; from.seekg(at) && from.read(reinterpret_cast<char*>(head.data()), 8);) {
+    const std::string_view name(reinterpret_cast<const char*>(&head[4]), 4);
+    if (name == chunk) return true;
+    if (name == "IDAT") return false;
+    at += 12 + (std::streamoff{head[0]} << 24 | head[1] << 16 | head[2] << 8 | head[3]);
+  }
+  return false;
+}
+
 /// The picture's size, and where the first pixel of the file's data lies in it: a display window, which EXR has.
 struct Frame {
   int width, height, left = 0, top = 0;
@@ -236,6 +250,8 @@ void read_bands(const std::string& file, const std::function<void(const Band&)>&
     rows.channels = spec.channelnames;
     rows.integers = !spec.format.is_floating_point();
     add_colours(spec, rows);
+    if (std::string_view(opened->format_name()) == "png" && !spec.find_attribute("ICCProfile") && png_has(file, "iCCP"))
+      rows.notes.push_back("its colour profile cannot be read; its colours are taken as sRGB's");
     for (const ParamValue& value : spec.extra_attribs)
       if (value.type() == TypeString) rows.attributes[value.name().string()] = value.get_string();
     band.order = pixel_order(spec.get_int_attribute("Orientation", 1));
