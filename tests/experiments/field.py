@@ -66,13 +66,14 @@ def repository(name, out):
 
 # What no Mitsuba of today knows: elements and parameters of the programs that the files were made for.
 FOREIGN = re.compile(r'<mode\b[^>]*/>|<hide\b[^>]*?(/>|>.*?</hide>)|'
-                     r'<\w+ name="(caustic_|usePathGuiding|attachLog|sunRadiusScale|extEta|ext_eta)\w*"[^>]*/>', re.S)
+                     r'<\w+ name="(caustic_|usePathGuiding|attachLog|sunRadiusScale|extEta|ext_eta|subdiv)\w*"[^>]*/>', re.S)
 
 
 def made_small(text):
     """The file with a picture of WIDTH pixels, a box filter and no integrator of its own."""
     def film(found):
-        sides = [int(re.search(rf'name="{side}"\s+value="(\d+)"', found[0])[1]) for side in ("width", "height")]
+        given = [re.search(rf'name="{side}"\s+value="(\d+)"', found[0]) for side in ("width", "height")]
+        sides = [int(side[1]) for side in given] if all(given) else [4, 3]  # as Mitsuba has it by itself
         name = re.search(r'\bid="[^"]*"', found[1])
         return (f'<film type="hdrfilm" {name[0] if name else ""}><integer name="width" value="{WIDTH}"/>'
                 f'<integer name="height" value="{WIDTH * sides[1] // sides[0]}"/><rfilter type="box"/></film>')
@@ -81,6 +82,7 @@ def made_small(text):
             text = text.replace(f'"${name}"', f'"{value}"')
     text = re.sub(r"<integrator\b[^>]*?(/>|>.*?</integrator>)", "", text, flags=re.S)
     text = re.sub(r"(<film\b[^>]*>).*?</film>", film, text, flags=re.S)
+    text = re.sub(r"<sampler\b[^>]*?(/>|>.*?</sampler>)", '<sampler type="independent"/>', text, flags=re.S)
     return FOREIGN.sub("", text)
 
 

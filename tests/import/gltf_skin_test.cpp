@@ -96,7 +96,7 @@ TEST_F(GltfSkin, WhatDoesNotFitIsRefused) {
   auto& attributes = light["meshes"][0]["primitives"][0]["attributes"];
   attributes["WEIGHTS_0"] = add<float>(light, std::vector<float>(12), 5126, 3, "VEC4");
   imported(light);
-  EXPECT_THAT(made.notes, Contains(HasSubstr("vertices without weights are moved by its first joint")));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("have no weights: the first joint of its skin moves them")));
 }
 
 } // namespace nephroid::gltf_skin_test

@@ -190,6 +190,7 @@ TEST_F(ImportedLight, TheShutterAndTheFilmsSpeedExposeThePicture) {
   EXPECT_NEAR(white(rgb, quarter) / white(rgb, camera), 4, 1e-9);
   EXPECT_NEAR(white(rgb + " \"float iso\" 800", quarter) / white(rgb, camera), 0.5, 1e-9);
   EXPECT_NEAR(white("Film \"image\"", quarter) / white(rgb, camera), 1, 1e-9); // version 3
+  EXPECT_NEAR(white("Film \"image\"", camera + " \"float shutterclose\" 0") / white(rgb, camera), 1, 1e-9);
   EXPECT_THAT(test::refusal_of([&] { pbrt(camera + " \"float shutterclose\" 0\nWorldBegin"); }),
               HasSubstr("shutter that does not open"));
 }

@@ -105,6 +105,32 @@ TEST_F(ImportedSurfaces, OfOneKindAreBlended) {
               HasSubstr("there is no material \"a\" to mix"));
 }
 
+TEST_F(ImportedSurfaces, ThatGoRoundInACircleAreRefused) {
+  const auto refusal = [](const auto& import) { return test::refusal_of(import); };
+  const std::string glass = "MakeNamedMaterial \"glass\" \"string type\" \"dielectric\" ";
+  EXPECT_THAT(refusal([&] {
+                pbrt(glass + "MakeNamedMaterial \"A\" \"string type\" \"mix\" \"string materials\" [\"glass\" \"A\"] "
+                             "\"float amount\" .9 NamedMaterial \"A\" Shape \"sphere\"");
+              }),
+              HasSubstr("mixes are in each other more than 8 deep, or go round in a circle"));
+  EXPECT_THAT(refusal([&] {
+                pbrt("Texture \"c\" \"spectrum\" \"checkerboard\" \"texture tex1\" \"c\" "
+                     "Material \"diffuse\" \"texture reflectance\" \"c\" Shape \"sphere\"");
+              }),
+              HasSubstr("textures are in each other more than 8 deep, or go round in a circle"));
+  EXPECT_THAT(refusal([&] {
+                mitsuba("<texture type='checkerboard' id='a'><ref name='color0' id='b'/></texture>"
+                        "<texture type='checkerboard' id='b'><ref name='color0' id='a'/></texture>"
+                        "<shape type='rectangle'><bsdf type='diffuse'><ref name='reflectance' id='a'/></bsdf></shape>");
+              }),
+              HasSubstr("go round in a circle"));
+}
+
+TEST_F(ImportedSurfaces, AreNoGlassBehind) {
+  mitsuba(rectangle(twosided(matt(0.5) + "<bsdf type='dielectric'/>")));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("the second side is left out")));
+}
+
 TEST_F(ImportedSurfaces, ThatAMaskTakesAwayAreNotThere) {
   const auto masked = [&](double opacity) {
     return mitsuba("<shape type='sphere'/>" +
@@ -117,6 +143,9 @@ TEST_F(ImportedSurfaces, ThatAMaskTakesAwayAreNotThere) {
   EXPECT_THAT(made.notes, Each(Not(HasSubstr("mask"))));
   EXPECT_EQ(masked(0.3), 1u);
   EXPECT_THAT(made.notes, Contains(HasSubstr("the mask is left out: nothing is there")));
+  EXPECT_EQ(mitsuba(rectangle("<bsdf type='mask'><rgb name='opacity' value='.8,.8,.8'/>" + matt(0.3) + "</bsdf>"))
+                .scene.objects.size(),
+            2u);
 }
 
 /// Where a point of the view plane at a distance of 1 is in the picture, in pixels from the upper left.

@@ -101,6 +101,22 @@ TEST_F(AdditionsWindow, EachIsOneEntryAndSelected) {
   }
 }
 
+TEST_F(AdditionsWindow, AWhiteThatFittedAnotherPictureIsFoundAnew) {
+  runs.white = 2.5;
+  open(test::ball_text());
+  const auto add_table = [&] {
+    apply({command::Edit{"Add table", with_thing(*workbench.preset(), Thing::table).preset}});
+    return workbench.preset()->white;
+  };
+  edit([](preset::Preset& p) { p.white = 3; });
+  EXPECT_EQ(add_table(), 3) << "somebody has chosen it";
+  edit([](preset::Preset& p) { p.white.reset(); });
+  ASSERT_TRUE(until([&] { return workbench.preset()->white == 2.5; }));
+  edit([](preset::Preset& p) { p.scene.camera.fov_deg += 1; });
+  EXPECT_TRUE(workbench.preset()->white);
+  EXPECT_EQ(add_table(), std::nullopt);
+}
+
 TEST_F(AdditionsWindow, F5RunsWhereATextIsTyped) {
   runs.steps = 1000000;
   open(test::ball_text());

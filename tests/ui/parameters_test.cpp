@@ -254,6 +254,10 @@ TEST_F(ParametersTest, TheSearchOffersWhatThePresetHasNot) {
   click("make scene.lights: directional");
   EXPECT_EQ(at("/scene/lights/1/type"), "directional");
   EXPECT_THAT(problems(), IsEmpty());
+  search("half_angle_deg");
+  click("make scene.lights: spot");
+  EXPECT_EQ(at("/scene/lights/2/type"), "spot");
+  EXPECT_GT(at("/scene/lights/2/position/1"), 0) << "above what the camera looks at, as Add lamp has it";
   search("no such thing");
   EXPECT_TRUE(panel().place_of("nothing"));
 }
@@ -281,6 +285,21 @@ TEST_F(ParametersTest, TabGoesToTheNextNumber) {
   retype("6");
   press(ImGuiKey_Enter);
   EXPECT_EQ(at("/scene/camera/position"), Json::array({3, 6, 5}));
+}
+
+TEST_F(ParametersTest, TabTakesTheNumberWhereThereIsNoOther) {
+  open();
+  search("scene.camera.fov_deg");
+  click(fov);
+  frames(2);
+  retype("33");
+  press(ImGuiKey_Tab);
+  frames(3);
+  EXPECT_EQ(at(fov), 33);
+  retype("34");
+  press(ImGuiKey_Escape);
+  frames(2);
+  EXPECT_EQ(at(fov), 33);
 }
 
 TEST_F(ParametersTest, ItemsOfAListAreAddedCopiedMovedAndRemoved) {

@@ -6,8 +6,6 @@
 namespace nephroid::ui {
 namespace {
 
-std::string why_no_things(C c) { return c.preset() ? "this preset has no scene" : "no preset is open"; }
-
 Action add_action(const char* what, const char* help, Thing thing) {
   const std::string name = std::string("Add ") + what;
   return {name,
@@ -22,12 +20,12 @@ Action add_action(const char* what, const char* help, Thing thing) {
           why_no_things};
 }
 
-/// The camera before it becomes a bookmark.
+/// The old camera becomes a bookmark.
 void add_camera(C c) {
   const preset::Camera camera = camera_on_all(*c.preset());
   std::vector<Bookmark> bookmarks = c.view_state.bookmarks;
   bookmarks.push_back({new_bookmark_name(*c.preset(), bookmarks), c.preset()->scene.camera});
-  c.note("the camera before is the bookmark \"" + bookmarks.back().name + "\"");
+  c.note("the old camera is the bookmark \"" + bookmarks.back().name + "\"");
   c.push(command::SetBookmarks{std::move(bookmarks)});
   c.edit("Add camera", [&](preset::Preset& p) { p.scene.camera = camera; });
   c.push(command::Select{{Selection::Kind::camera, 0}});
@@ -37,8 +35,8 @@ void add_camera(C c) {
 
 std::vector<Action> add_actions() {
   return {
-      add_action("sphere", "A ball on the ground, where the camera looks", Thing::sphere),
-      add_action("glass", "A ball on the ground, where the camera looks", Thing::glass),
+      add_action("sphere", "A matt ball on the ground, where the camera looks", Thing::sphere),
+      add_action("glass", "A ball of glass on the ground, where the camera looks", Thing::glass),
       add_action("table", "A floor; where there is one, a slab", Thing::table),
       {"Add mesh...", 0, "An object from a file", has_things, ask<Question::add_mesh>, why_no_things},
       add_action("lamp", "A point light above the camera's target", Thing::lamp),

@@ -19,6 +19,7 @@ using C = const Context&;
 inline bool always(C) { return true; }
 inline bool has_preset(C c) { return c.preset() != nullptr; }
 inline bool has_things(C c) { return c.preset() && has_scene(*c.preset()); }
+inline std::string why_no_things(C c) { return c.preset() ? "this preset has no scene" : "no preset is open"; }
 inline bool has_picture(C c) { return c.run.snapshot() != nullptr; }
 
 inline Action repeating(Action action) {

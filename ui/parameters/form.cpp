@@ -185,8 +185,7 @@ void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::st
 void ValueWidgets::draw_number(const Number& number, const Json& value, const std::string& pointer) {
   const double now = value.is_number() ? value.get<double>() : 0;
   const bool possible = value.is_number() && number.bounds.contain(now) && (!number.whole || std::trunc(now) == now);
-  // Where Shift+Tab went to a number above, what was typed here is taken in this frame.
-  if (!possible || number_typed_ == pointer || typed_at_ == pointer) {
+  if (!possible || number_typed_ == pointer) {
     if (number_typed_ == pointer && !number_focused_) ImGui::SetKeyboardFocusHere();
     draw_text(pointer, value, number.width, number_from);
     if (number_typed_ != pointer) return;
@@ -246,7 +245,11 @@ ValueWidgets::type_text(const std::string& id, const std::string& before, float 
   ImGui::InputTextWithHint(("##text" + id).c_str(), "", &text, ImGuiInputTextFlags_AutoSelectAll);
   ImGui::PopItemFlag();
   form_.note(id);
-  if (ImGui::IsItemActive()) {
+  if (ImGui::IsItemActive() && ImGui::IsKeyPressed(ImGuiKey_Tab)) { // which may lead back here, or above
+    ImGui::ClearActiveID();
+    typed_at_.clear();
+    if (text != before) return text;
+  } else if (ImGui::IsItemActive()) {
     if (typed_at_ == id && typed_ == text) return std::nullopt;
     typed_at_ = id;
     typed_ = text;

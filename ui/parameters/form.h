@@ -39,10 +39,10 @@ public:
 
   /// What has the words that are looked for and is not in the preset: an object of a type that would be made.
   struct Offer {
-    std::string name;          ///< "scene.environment: sky"
-    std::string help;          ///< a sentence: of the type, or of the field that was looked for
-    std::string pointer, made; ///< where a value is put, and where in it the new object is
-    Json value;
+    std::string name;            ///< "scene.environment: sky"
+    std::string help;            ///< a sentence: of the type, or of the field that was looked for
+    std::string pointer, made;   ///< where a value is put, and where in it the new object is
+    std::function<Json()> value; ///< asked for where it is put
   };
   std::vector<Offer> offers() const;
 

@@ -45,7 +45,7 @@ void Form::offer_in(const std::vector<Outline>& fields, const Json& object, cons
     if (!o.object) continue;
     const std::string at = child_of(pointer, o.field.name);
     const Json& value = part(object, o);
-    const Json fresh = o.fresh();
+    const Json fresh = o.kind == Kind::object && !value.is_null() ? value : o.fresh(); // another type keeps fields
     const std::vector<Outline> own = o.fields(fresh);
     const auto chooser = std::ranges::find_if(own, &Outline::chooses);
     const std::string key(chooser == own.end() ? "" : chooser->field.name);
@@ -60,18 +60,20 @@ void Form::offer_in(const std::vector<Outline>& fields, const Json& object, cons
       });
       const bool by_type = has_words(fmt::format("{} {}", type, sentence), search);
       if (!by_type && found == inner.end()) return;
-      Json whole = made;
-      std::string where = at;
-      if (o.kind == Kind::list || o.kind == Kind::map) {
-        const std::string name =
-            untaken_name(type.empty() ? "new" : type, [&](const auto& n) { return value.contains(n); });
+      std::string where = at, name;
+      if (o.kind == Kind::map)
+        name = untaken_name(type.empty() ? "new" : type, [&](const auto& n) { return value.contains(n); });
+      if (o.kind == Kind::list || o.kind == Kind::map)
         where = child_of(at, o.kind == Kind::map ? name : std::to_string(value.size()));
-        whole = value;
-        if (o.kind == Kind::map)
-          whole[name] = made;
+      const auto whole = [this, kind = o.kind, made, name, there = Json::json_pointer(at)] {
+        if (kind == Kind::object) return made;
+        Json all = draft.value().value(there, Json());
+        if (kind == Kind::map)
+          all[name] = made;
         else
-          whole.push_back(made);
-      }
+          all.push_back(made);
+        return all;
+      };
       const std::string help =
           by_type ? std::string(sentence) : fmt::format("{}: {}", found->field.name, found->field.sentence);
       offers.push_back({fmt::format("{}{}{}", dotted(at), type.empty() ? "" : ": ", type), help, at, where, whole});

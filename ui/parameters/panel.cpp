@@ -2,6 +2,8 @@
 #include "ui/parameters/panel.h"
 
 #include "preset/origins.h"
+#include "preset/read.h"
+#include "ui/state/additions.h"
 #include "ui/widgets/action.h"
 
 #include <algorithm>
@@ -11,7 +13,7 @@ namespace nephroid::ui {
 
 void ParametersPanel::draw(const Context& context) {
   form_.draft.follow(*context.preset());
-  if (std::exchange(opened_, &context.edits->opened()) != &context.edits->opened()) {
+  if (const auto& opened = context.edits->state().opened; std::exchange(opened_, opened) != opened) {
     form_.search.clear();
     form_.only_changed = false;
   }
@@ -82,7 +84,13 @@ void ParametersPanel::draw_offers(const Context& context, const std::vector<Form
   for (std::size_t i = 0; i < std::min(offers.size(), most); ++i) {
     const Form::Offer& offer = offers[i];
     if (places_.small_button(("Make " + offer.name).c_str(), "make " + offer.name)) {
-      form_.ask(offer.name, offer.pointer, offer.value);
+      Json value = offer.value();
+      if (offer.pointer == "/scene/lights") { // stands where "Add lamp" puts one, and is as strong
+        const Json lamp = preset::as_json(with_thing(*context.preset(), Thing::lamp).preset)["scene"]["lights"].back();
+        for (const char* const key : {"position", "power_w"})
+          if (value.back().contains(key)) value.back()[key] = lamp[key];
+      }
+      form_.ask(offer.name, offer.pointer, value);
       form_.search.clear();
       form_.only_changed = false;
       form_.reveal = offer.made;

@@ -65,8 +65,8 @@ private:
 
   Form form_{title, places_};
   FieldRows rows_{form_};
-  const preset::Preset* opened_ = nullptr; ///< what was opened last; with another one the search is over
-  Selection revealed_;                     ///< what was selected when its fields were brought into sight last
+  std::shared_ptr<const preset::Preset> opened_; ///< last; with another one the search is over
+  Selection revealed_;                           ///< what was selected when its fields were brought into sight last
 };
 
 } // namespace nephroid::ui

@@ -121,7 +121,7 @@ void run_shortcuts(const Context& context, bool dialog, bool help) {
                        (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
     if (elsewhere || types || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
     if (action.enabled(context)) {
-      if (is_function_key) ImGui::ClearActiveID(); // what is being typed counts
+      if (action.shortcut == ImGuiKey_F5) ImGui::ClearActiveID(); // what is being typed counts
       action.run(context);
       taken = action.shortcut;
     } else if (action.why_not)

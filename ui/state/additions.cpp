@@ -137,14 +137,6 @@ glm::dvec3 free_place(const preset::Camera& camera, const std::vector<Body>& bod
   return best;
 }
 
-/// Of a new object, as precise as a thousandth of its size is.
-preset::Vec3 stored(const glm::dvec3& place, double size) {
-  preset::Vec3 rounded_place;
-  const int decimals = 3 - static_cast<int>(std::floor(std::log10(size)));
-  for (std::size_t i = 0; i < 3; ++i) rounded_place[i] = rounded(place[static_cast<int>(i)], decimals);
-  return rounded_place;
-}
-
 /// A light and plain diffuse material; without one new white.
 std::string white_of(preset::Scene& scene) {
   using Type = preset::Material::Type;
@@ -177,7 +169,7 @@ Selection add_ball(preset::Preset& preset, Thing thing) {
   place.y += shape.radius;
   const bool glass = thing == Thing::glass;
   std::string material = glass ? glass_of(preset.scene) : white_of(preset.scene);
-  return add_object(preset.scene, glass ? "glass" : "sphere", shape, std::move(material), stored(place, size));
+  return add_object(preset.scene, glass ? "glass" : "sphere", shape, std::move(material), rounded_place(place, size));
 }
 
 /// A floor for what hangs in the air; a slab where there is a floor.
@@ -198,7 +190,7 @@ Selection add_table(preset::Preset& preset) {
     for (const Body& body : bodies) place.y = std::min(place.y, body.box.low.y);
   }
   std::string material = white_of(preset.scene);
-  return add_object(preset.scene, "table", shape, std::move(material), stored(place, edge));
+  return add_object(preset.scene, "table", shape, std::move(material), rounded_place(place, edge));
 }
 
 /// The way to a sun that stands at the left, behind what the camera looks at: shadows and caustics come to the front.
@@ -228,7 +220,7 @@ Selection add_lamp(preset::Preset& preset) {
       if ((found = is_good(place))) break;
     }
   preset::Light lamp;
-  lamp.position = stored(place, view);
+  lamp.position = rounded_place(place, view);
   lamp.power_w = 10;
   for (const preset::Light& light : scene.lights) lamp.power_w = std::max(lamp.power_w, light.power_w);
   scene.lights.push_back(lamp);
@@ -324,12 +316,12 @@ preset::Camera camera_on_all(const preset::Preset& preset) {
   if (all.low.x > all.high.x) return camera;
   const glm::dvec3 middle = 0.5 * all.low + 0.5 * all.high, edges = all.high - all.low;
   const glm::dvec3 way = glm::normalize(to_dvec3(camera.position) - to_dvec3(camera.target));
-  camera.target = stored(middle, glm::length(edges));
+  camera.target = rounded_place(middle, glm::length(edges));
   // Twice as wide as what there is, so that the caustics beside it are seen, too.
   const double factor = 2 * glm::length(edges) / view_at_target(camera);
   if (camera.height) *camera.height *= factor;
-  camera.position =
-      stored(to_dvec3(camera.target) + factor * preset::target_distance(preset.scene.camera) * way, glm::length(edges));
+  camera.position = rounded_place(to_dvec3(camera.target) + factor * preset::target_distance(preset.scene.camera) * way,
+                                  glm::length(edges));
   return camera;
 }
 

@@ -122,6 +122,18 @@ void Document::carry_out(const command::Edit& c) {
 
 /// Throws bad_input where the preset could not be read again: a number is out of its range, wherever it came from, or
 /// two fields contradict each other.
+namespace {
+
+/// Whether things came or went, or the surroundings are of another type.
+bool has_other_things(const preset::Scene& a, const preset::Scene& b) {
+  const auto type = [](const preset::Scene& scene) {
+    return scene.environment ? std::optional(scene.environment->type) : std::nullopt;
+  };
+  return a.objects.size() != b.objects.size() || a.lights.size() != b.lights.size() || type(a) != type(b);
+}
+
+} // namespace
+
 void Document::edit(const command::Edit& c) {
   if (!edits_) return;
   services_.messages.dismiss(refused_edit_); // a drag of the mouse makes a new one at every move
@@ -141,6 +153,9 @@ void Document::edit(const command::Edit& c) {
       preset::with_overrides(edited, {});
   }
   if (edited.settings.engine() != edits_->current().settings.engine()) note_left_out(edited.settings.engine());
+  if (edits_->has_fitted_white() && edited.white == edits_->current().white &&
+      has_other_things(edited.scene, edits_->current().scene))
+    edited.white.reset(); // it fitted another picture
   edits_->push(std::move(label), std::move(edited), c.gesture);
   run_.follow_edit(*edits_, c.live);
 }

@@ -206,12 +206,8 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
   const glm::dvec3 middle = 0.5 * mesh.box.low + 0.5 * mesh.box.high, foot{middle.x, mesh.box.low.y, middle.z};
   const glm::dvec3 place = free_place(preset, factor * edges);
   const double size = factor * longest;
-  const int decimals = size > 0 && std::isfinite(size) ? 3 - static_cast<int>(std::floor(std::log10(size)))
-                                                       : 0; // a thousandth of the size
-  for (std::size_t i = 0; i < 3; ++i) {
-    object.transform.scale[i] = factor;
-    object.transform.translate[i] = rounded(place[static_cast<int>(i)] - factor * foot[static_cast<int>(i)], decimals);
-  }
+  object.transform.scale = {factor, factor, factor};
+  object.transform.translate = rounded_place(place - factor * foot, size);
   std::string note =
       fmt::format("{} is the object '{}' of '{}', scaled by {:g} to {:.3g} {}", mesh.file.filename().string(),
                   object.name, object.material, factor, size, unit_word(preset));

@@ -72,6 +72,11 @@ double with_digits(double value, int digits) {
   return rounded(value, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
 }
 
+preset::Vec3 rounded_place(const glm::dvec3& place, double size) {
+  const int decimals = size > 0 && std::isfinite(size) ? 3 - static_cast<int>(std::floor(std::log10(size))) : 0;
+  return {rounded(place.x, decimals), rounded(place.y, decimals), rounded(place.z, decimals)};
+}
+
 std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks) {
   std::string of = preset.name.empty() ? std::filesystem::path(preset.source).stem().string() : preset.name;
   if (of.empty()) of = "Camera";

@@ -5,6 +5,7 @@
 #include "preset/preset.h"
 
 #include <fmt/format.h>
+#include <glm/vec3.hpp>
 
 #include <cstddef>
 
@@ -50,6 +51,8 @@ std::string untaken_name(const std::string& wanted, Taken taken, const char* pat
 /// Rounds to so many decimals; negative: to whole tens, hundreds. Gives the double nearest to that decimal number.
 double rounded(double value, int decimals);
 double with_digits(double value, int digits);
+/// Rounds to a thousandth of a size, which is above 0.
+preset::Vec3 rounded_place(const glm::dvec3& place, double size);
 
 struct Bookmark {
   std::string name;

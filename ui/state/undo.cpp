@@ -77,6 +77,7 @@ bool UndoStack::step(int by) {
 }
 
 void UndoStack::fit_white(double white) {
+  fitted_ = white;
   for (Entry& entry : state_.entries) {
     if (entry.preset->white) continue;
     preset::Preset fitted = *entry.preset;

@@ -63,6 +63,8 @@ public:
   void mark_saved(const std::string& source);
   /// Replaces "auto" in all states. This is not an entry of its own.
   void fit_white(double white);
+  /// Whether the white is one that took the place of "auto" in this session.
+  bool has_fitted_white() const { return fitted_ && shown_->white == fitted_; }
   bool modified() const { return state_.saved != state_.index; }
   const State& state() const { return state_; }
 
@@ -73,6 +75,7 @@ private:
   static constexpr std::size_t limit = 1000; ///< the most entries; a preset is a few kilobytes
   State state_;
   std::shared_ptr<const preset::Preset> shown_;
+  std::optional<double> fitted_; ///< the last white in the place of "auto"
 };
 
 } // namespace nephroid::ui

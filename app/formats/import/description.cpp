@@ -15,7 +15,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <numbers>
 
 namespace nephroid::formats {
@@ -25,24 +24,11 @@ using std::numbers::pi;
 
 namespace {
 
-/// A new folder among the system's temporary ones; who asks for it removes it.
-fs::path temporary_folder() {
-  std::string name = (fs::temp_directory_path() / "nephroid-import-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {},
-                 "set TMPDIR to a folder that you may write to");
-  return name;
-}
-
 /// The mesh reader takes a file by its ending, so it gets an unpacked one.
 scene::Mesh packed_mesh(const fs::path& file) {
   const std::string bytes = inflated(read_file(file), file);
-  const fs::path folder = temporary_folder(), unpacked = folder / file.stem().filename();
-  const auto removed = [](const fs::path* made) {
-    std::error_code ignored;
-    fs::remove_all(*made, ignored);
-  };
-  const std::unique_ptr<const fs::path, decltype(removed)> made(&folder, removed);
+  const TemporaryFolder folder;
+  const fs::path unpacked = folder.path() / file.stem().filename();
   write_file_whole(unpacked, bytes);
   try {
     return scene::load_mesh(unpacked);
@@ -52,6 +38,27 @@ scene::Mesh packed_mesh(const fs::path& file) {
 }
 
 } // namespace
+
+Nesting::Nesting(int& depth, const char* what, const Location& where) : depth_(depth) {
+  constexpr int deepest = 8;
+  if (depth_ >= deepest)
+    throw bad_input(where,
+                    fmt::format("{} are in each other more than {} deep, or go round in a circle", what, deepest));
+  ++depth_;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "nephroid-import-XXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw failed(name, std::string("cannot be made: ") + std::strerror(errno), {},
+                 "set TMPDIR to a folder that you may write to");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
 
 std::string read_packed_file(const fs::path& file) {
   const std::string bytes = read_file(file);

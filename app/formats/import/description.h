@@ -125,6 +125,32 @@ struct Description {
   std::string own_mesh(const std::string& name, scene::Mesh mesh);
 };
 
+/// Counts in `depth` what is being read, each inside of the one before, for as long as this lives. Throws bad_input at
+/// `where` if that is more than 8: it may go round in a circle. what: "mixes".
+class Nesting {
+public:
+  Nesting(int& depth, const char* what, const Location& where);
+  Nesting(const Nesting&) = delete;
+  Nesting& operator=(const Nesting&) = delete;
+  ~Nesting() { --depth_; }
+
+private:
+  int& depth_;
+};
+
+/// A new folder among the system's temporary ones, which is removed with this.
+class TemporaryFolder {
+public:
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
 /// The file's bytes; unpacked where its name ends in .gz.
 std::string read_packed_file(const std::filesystem::path& file);
 

@@ -16,8 +16,6 @@
 #include <tuple>
 #include <utility>
 
-#include <unistd.h>
-
 namespace nephroid::formats {
 namespace {
 
@@ -164,8 +162,9 @@ private:
     GltfMeshes::Picture picture = meshes_.picture(root_.item("images", image));
     const bool is_own = picture.file.empty();
     if (is_own ? !picture.bytes.starts_with("\x89PNG") : !is_there(picture.file)) return {}; // JPEG has no alpha
+    std::optional<TemporaryFolder> folder;
     if (is_own) {
-      picture.file = std::filesystem::temp_directory_path() / fmt::format("nephroid-{}-{}.png", getpid(), image);
+      picture.file = folder.emplace().path() / "picture.png";
       write_file_whole(picture.file, picture.bytes);
     }
     image::Image read;
@@ -173,8 +172,6 @@ private:
       read = image::read_image(picture.file);
     } catch (const Error&) { // who takes its colours says so
     }
-    std::error_code ignored;
-    if (is_own) std::filesystem::remove(picture.file, ignored);
     const auto channel = static_cast<std::size_t>(std::ranges::find(read.channels, "A") - read.channels.begin());
     if (read.data.empty() || channel == read.channels.size()) return {};
     float low = 1, high = 0;
@@ -283,7 +280,7 @@ private:
     if (!joints.empty()) {
       if (const std::size_t loose = meshes_.move_by_joints(mesh, primitive, joints); loose > 0)
         d_.note(
-            fmt::format("{} of the skin of '{}': vertices without weights are moved by its first joint", loose, name));
+            fmt::format("{} vertices of '{}' have no weights: the first joint of its skin moves them", loose, name));
       for (scene::Mesh& target : targets) meshes_.move_by_joints(target, primitive, joints);
     }
     if (!scene::has_area(mesh)) {

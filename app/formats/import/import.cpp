@@ -390,7 +390,11 @@ private:
   /// metres, all light and what is white become less by the same factor: the picture stays.
   void dim() {
     double most = preset::power_bounds.high;
-    for (const preset::Light& light : made_.scene.lights) most = std::max({most, light.power_w, light.irradiance_w_m2});
+    for (const preset::Light& light : made_.scene.lights) {
+      if (!std::isfinite(light.power_w + light.irradiance_w_m2))
+        throw bad_input(from_.source.string(), "has a lamp whose light is no finite number");
+      most = std::max({most, light.power_w, light.irradiance_w_m2});
+    }
     const double part = preset::power_bounds.high / most;
     if (part < 1)
       from_.note(fmt::format("a lamp has more than {:g} W: all light is {:.3g} times that of the file, and so is what "

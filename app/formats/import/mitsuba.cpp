@@ -208,7 +208,8 @@ private:
     if (!(glm::length(to_sun) > 0) || !(glm::length(up) > 0))
       throw bad_input(file_.at(node), "its sun has no direction");
     if (!(glm::dot(to_sun, up) > 0))
-      return d_.note(file_.at(node), "the sun is below the horizon: the emitter is left out");
+      return d_.note(file_.at(node),
+                     "the sun is below the horizon, as up is the z of its to_world: the emitter is left out");
     sky.sun_direction = scene::to_vec3(glm::normalize(to_sun));
     d_.up = glm::normalize(up);
     file_.child(node, "sun_aperture"); // Mitsuba's keeps its irradiance, and so is the sun's own here

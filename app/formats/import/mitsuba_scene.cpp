@@ -214,7 +214,8 @@ Unwrapped unwrapped(MitsubaScene& scene, xml_node node, int blends = 0) {
       found.is_twosided = true;
       if (inside.size() > 1) found.back = inside[1];
     } else if (type == "mask") {
-      const double opacity = plain_number(scene, node, "opacity", 0.5);
+      const glm::dvec3 colour = linear_srgb_of(mitsuba_colour(scene, node, "opacity", 0.5));
+      const double opacity = (colour.x + colour.y + colour.z) / 3;
       if (opacity > 0 && opacity < 1) left_out(opacity < 0.5 ? "nothing is there" : "the material in it is taken");
       if (opacity < 0.5) return found;
     } else if (type == "normalmap" && !found.normal_map)
@@ -261,44 +262,6 @@ std::optional<preset::Material> metal(MitsubaScene& scene, xml_node node, const 
   return made;
 }
 
-/// A picture or a checkerboard in a colour's or number's place; nothing where there is none.
-std::optional<preset::Texture> texture_of(MitsubaScene& scene, xml_node parent, const std::string& name,
-                                          scatter::Texels texels) {
-  const MitsubaFile& file = scene.file;
-  const xml_node node = file.child(parent, name);
-  const std::string type = node ? file.attribute(node, "type") : std::string();
-  if (std::string_view(node.name()) != "texture" || (type != "bitmap" && type != "checkerboard")) return std::nullopt;
-  const Location where = file.at(node);
-  const glm::dmat4 to_uv = file.to_world(node, "to_uv");
-  // A matrix of 3 x 3 has its shift in the third column, one of 4 x 4 in the fourth.
-  const glm::dvec2 offset(glm::dvec3(to_uv[2]).x + to_uv[3].x, glm::dvec3(to_uv[2]).y + to_uv[3].y);
-  // Of version 0.6.
-  const glm::dvec2 scale(file.number(node, "uscale", 1), file.number(node, "vscale", 1)),
-      shift(file.number(node, "uoffset", 0), file.number(node, "voffset", 0));
-  const TextureMap map = upside_down({glm::dmat2(scale.x, 0, 0, scale.y) * glm::dmat2(to_uv), scale * offset + shift});
-  if (type == "checkerboard") {
-    preset::Texture board;
-    board.type = preset::Texture::Type::checkerboard;
-    const auto colour_of_part = [&](const char* part, double standard) {
-      return scene::to_vec3(glm::clamp(linear_srgb_of(mitsuba_colour(scene, node, part, standard)), 0.0, 1.0));
-    };
-    board.colour1 = colour_of_part("color0", 0.4); // of the upper left quarter there
-    board.colour0 = colour_of_part("color1", 0.2);
-    return placed(board, map, where, scene.d);
-  }
-  const std::string wrap = file.text(node, "wrap_mode", "repeat");
-  if (file.text(node, "filter_type", "bilinear") != "bilinear")
-    scene.d.note(where, "the texels of the texture have no edges here");
-  const bool is_raw = file.flag(node, "raw") && texels == scatter::Texels::colours;
-  note_unasked(scene, node);
-  const auto taken = picture(file.find(node, file.text(node, "filename", "")),
-                             wrap == "mirror"  ? preset::Texture::Wrap::mirror
-                             : wrap == "clamp" ? preset::Texture::Wrap::clamp
-                                               : preset::Texture::Wrap::repeat,
-                             map, where, scene.d);
-  return taken && is_raw ? linear_picture(*taken, false, {}, where, scene.d) : taken;
-}
-
 /// As a preset has it, whose square is the alpha of GGX. texture: gets the picture that it is multiplied by; null: that
 /// is left out.
 double roughness_of(MitsubaScene& scene, xml_node node, const std::string& key,
@@ -306,7 +269,7 @@ double roughness_of(MitsubaScene& scene, xml_node node, const std::string& key,
   const MitsubaFile& file = scene.file;
   if (file.text(node, "distribution", "beckmann") != "ggx")
     scene.d.note(file.at(node), "its facets have the distribution GGX here, not Beckmann's");
-  const auto alpha = texture ? texture_of(scene, node, "alpha", scatter::Texels::numbers) : std::nullopt;
+  const auto alpha = texture ? mitsuba_texture(scene, node, "alpha", scatter::Texels::numbers) : std::nullopt;
   if (alpha) {
     const xml_node given = file.child(node, "alpha");
     *texture = roughness_picture(*alpha, 0.5, !file.flag(given, "raw"), key, file.at(given), scene.d);
@@ -345,7 +308,7 @@ preset::Material opaque(MitsubaScene& scene, xml_node node, const std::string& t
   const char* const name = type == "diffuse"      ? "reflectance"
                            : type == "principled" ? "base_color"
                                                   : "diffuse_reflectance";
-  if ((made.texture = texture_of(scene, node, name, scatter::Texels::colours)))
+  if ((made.texture = mitsuba_texture(scene, node, name, scatter::Texels::colours)))
     made.reflectance.value = 1;
   else
     made.reflectance = reflectance_of(mitsuba_colour(scene, node, name, 0.5));
@@ -405,7 +368,7 @@ DescribedColour mitsuba_colour(MitsubaScene& scene, xml_node parent, const std::
   const xml_node node = scene.file.child(parent, name);
   if (!node) return grey;
   if (const auto colour = colour_of(scene, node)) return *colour;
-  if (const auto texture = texture_of(scene, parent, name, scatter::Texels::numbers))
+  if (const auto texture = mitsuba_texture(scene, parent, name, scatter::Texels::numbers))
     if (const auto mean = mean_of(*texture, !scene.file.flag(node, "raw"))) {
       scene.d.note(scene.file.at(node), fmt::format("this {} is taken by its mean", node.name()));
       grey.rgb = *mean;
@@ -435,7 +398,7 @@ std::string key_of(MitsubaScene& scene, const Unwrapped& from, xml_node medium) 
   if (!is_glass) {
     preset::Material& made = scene.d.materials[key] = opaque(scene, node, type, key);
     if (normal_map && type == "diffuse") {
-      const auto map = texture_of(scene, normal_map, "normalmap", scatter::Texels::numbers);
+      const auto map = mitsuba_texture(scene, normal_map, "normalmap", scatter::Texels::numbers);
       if (!map || map->type != preset::Texture::Type::file)
         scene.d.note(file.at(normal_map), "the normalmap is left out: it is no picture");
       else
@@ -451,7 +414,7 @@ std::string key_of(MitsubaScene& scene, const Unwrapped& from, xml_node medium) 
   if (type == "roughdielectric") glass.roughness = roughness_of(scene, node, key, &glass.roughness_texture);
   if (type == "principled") glass.roughness = std::clamp(plain_number(scene, node, "roughness", 0.5), 0.0, 1.0);
   const char* const tint = through > 0 ? "base_color" : "specular_transmittance";
-  if (through == 0) glass.tint_texture = texture_of(scene, node, tint, scatter::Texels::colours);
+  if (through == 0) glass.tint_texture = mitsuba_texture(scene, node, tint, scatter::Texels::colours);
   if (file.child(node, tint) && !glass.tint_texture) glass.tint = mitsuba_colour(scene, node, tint, 1);
   if (through > 0 && glass.tint) { // whose root each surface of a principled body takes
     glass.tint->spectrum = values_of(*glass.tint);
@@ -489,7 +452,9 @@ std::string mitsuba_material(MitsubaScene& scene, xml_node shape, std::optional<
   if (bsdf && !front.bsdf) return {};
   const std::string key = key_of(scene, front, medium);
   const Unwrapped behind = unwrapped(scene, front.back);
-  if (behind.bsdf)
+  if (behind.bsdf && refracts(file, behind.bsdf))
+    scene.d.note(file.at(behind.bsdf), "the second side is left out: what is behind a surface is no glass");
+  else if (behind.bsdf)
     *back = key_of(scene, behind, {});
   else if (!front.is_twosided && !is_glass && type != "principled")
     *back = black_key(scene);

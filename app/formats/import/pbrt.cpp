@@ -55,6 +55,7 @@ public:
         add_typed(head.text, head.where);
     }
     if (!stack_.empty()) throw bad_input(file.string(), "an AttributeBegin has no end", "expected AttributeEnd");
+    expose();
     give_materials();
   }
 
@@ -186,7 +187,6 @@ private:
             for (std::size_t i = 0; i < 4; ++i) crop_[i] = std::ceil(crop_[i] * resolution_[i / 2] - 1e-4);
         }
       if (p.find("exposuretime")) open_s_ = p.number("exposuretime", 1);
-      expose();
       note_unasked(scene_, p);
       if (d_.camera) frame();
     } else if (word == "Camera")
@@ -246,17 +246,19 @@ private:
     }
     if (p.find("shutterclose") || p.find("shutteropen"))
       open_s_ = p.number("shutterclose", 1) - p.number("shutteropen", 0);
-    expose();
     if (p.find("frameaspectratio")) d_.note(p.where, "its frameaspectratio is left out");
     note_unasked(scene_, p);
     frame();
   }
-  /// As frame(). The imaging ratio of version 4; in version 3 the shutter only says what moves.
+
+  /// The imaging ratio of version 4; in version 3 the shutter only says what moves.
   void expose() {
-    if (!(open_s_ * speed_ > 0))
+    if (scene_.is_version_3) return;
+    d_.exposure = open_s_ * speed_;
+    if (!(d_.exposure > 0) || !std::isfinite(d_.exposure))
       throw bad_input(d_.source.string(), "has a shutter that does not open, or a film of ISO 0");
-    d_.exposure = scene_.is_version_3 ? 1 : open_s_ * speed_;
   }
+
   /// The film may come before the camera or after it. fov is that of the shorter edge, which a window has from -1 to 1.
   void frame() {
     DescribedCamera& camera = *d_.camera;

@@ -53,9 +53,9 @@ void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParamet
   light.position = glm::dvec3(to_world * glm::dvec4(from, 1));
   light.direction = glm::dmat3(to_world) * (to - from);
   light.colour = pbrt_light_colour(scene, p, type == "distant" || type == "infinite" ? "L" : "I");
-  const double power = p.number("power", -1), lux = p.number("illuminance", -1);
+  const auto given = [&](const char* name) { return std::max(p.number(name, 0), 0.0); };
   if (type == "point") {
-    if (power > 0) light.colour = light.colour * (power / (4 * pi));
+    if (const double power = given("power"); power > 0) light.colour = light.colour * (power / (4 * pi));
   } else if (type == "spot") {
     light.type = preset::Light::Type::spot;
     const double cone = std::clamp(p.number("coneangle", 30), 0.01, 90.0);
@@ -65,20 +65,20 @@ void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParamet
       const double t = high > low ? std::clamp((std::cos(a) - low) / (high - low), 0.0, 1.0) : 1;
       return t * t * (3 - 2 * t);
     });
-    if (power > 0)
+    if (const double power = given("power"); power > 0)
       light.colour = light.colour * (power / (2 * pi * (1 - std::cos(glm::radians(light.half_angle_deg)))));
     if (start < cone) scene.d.note(p.where, "the spot's fading edge is left out: a sharp cone has its power");
   } else if (type == "distant") {
     light.type = preset::Light::Type::directional;
-    if (lux > 0) light.colour = light.colour * lux;
+    if (const double lux = given("illuminance"); lux > 0) light.colour = light.colour * lux;
   } else if (type == "infinite" && scene.d.surroundings) {
     return scene.d.note(p.where, "a second light infinite is left out");
   } else if (type == "infinite") {
-    add_infinite(scene, p, to_world, light.colour, lux);
+    add_infinite(scene, p, to_world, light.colour, given("illuminance"));
     return;
   } else if (type == "goniometric") {
     const std::string name = map_name(p);
-    if (power > 0)
+    if (const double power = given("power"); power > 0)
       light.colour = light.colour * (power / (4 * pi));
     else if (!name.empty())
       try {
@@ -86,7 +86,7 @@ void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParamet
       } catch (const Error& error) {
         scene.d.note(p.where, "the light's picture is left out: " + error.line());
       }
-    scene.d.note(p.where, "the light shines to all sides alike, with the mean of its picture");
+    scene.d.note(p.where, "the light shines to all sides alike, with its power or the mean of its picture");
   } else
     return scene.d.note(p.where, "the light " + type + " is left out");
   scene.d.lights.push_back(light);

@@ -152,8 +152,7 @@ struct ScaledTexture {
 
 /// Of the texture that a parameter names; nothing where it is none that is taken over.
 std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& from, const std::string& name,
-                                        scatter::Texels texels, int depth = 0) {
-  constexpr int deepest = 8; // scales of scales, which may go round in a circle
+                                        scatter::Texels texels) {
   const PbrtParameter* given = from.find(name);
   if (!given || given->type != "texture" || given->values.empty()) return std::nullopt;
   const auto& pictures = texels == scatter::Texels::colours ? scene.pictures : scene.numbers;
@@ -161,9 +160,10 @@ std::optional<ScaledTexture> texture_of(PbrtScene& scene, const PbrtParameters& 
   if (picture_named == pictures.end()) return std::nullopt;
   const std::string& kind = picture_named->second.type;
   const PbrtParameters& p = picture_named->second.parameters;
+  const Nesting nesting(scene.nested, "textures", p.where);
   if (kind == "scale") { // "tex" by "scale" in version 4, "tex1" by "tex2" in 3; one of them a colour
     for (const auto& [texture, colour] : {std::pair("tex", "scale"), {"tex1", "tex2"}, {"tex2", "tex1"}})
-      if (auto scaled = depth < deepest ? texture_of(scene, p, texture, texels, depth + 1) : std::nullopt) {
+      if (auto scaled = texture_of(scene, p, texture, texels)) {
         const DescribedColour factor = pbrt_colour(scene, p, colour, 1);
         const bool is_first = !scaled->factor.spectrum && scaled->factor.rgb == glm::dvec3(1);
         const glm::dvec3 both = linear_srgb_of(scaled->factor) * linear_srgb_of(factor);
@@ -319,29 +319,28 @@ double roughness_of(PbrtScene& scene, const PbrtParameters& p, double standard, 
 namespace {
 
 /// Version 4 names "materials" and how much there is of the second, 3 two materials and how much there is of the first.
-bool add_mix(PbrtScene& scene, const std::string& key, const PbrtParameters& p) {
+bool add_mix(PbrtScene& scene, const std::string& key, const PbrtParameters& p, const PbrtThing* medium) {
   const PbrtParameter* const list = p.find("materials");
   const std::string names[] = {list && !list->values.empty() ? list->values[0] : p.text("namedmaterial1", ""),
                                list && list->values.size() > 1 ? list->values[1] : p.text("namedmaterial2", "")};
   const double amount = glm::dot(linear_srgb_of(pbrt_colour(scene, p, "amount", 0.5)), glm::dvec3(1.0 / 3)),
                weight = list ? amount : 1 - amount;
+  const Nesting nesting(scene.nested, "mixes", p.where);
   preset::Material parts[2];
   for (int i = 0; i < 2; ++i) {
     const auto part = scene.materials.find(names[i]);
     if (part == scene.materials.end()) throw bad_input(p.where, "there is no material \"" + names[i] + "\" to mix");
     const std::string name = key + "\n" + names[i]; // of no material that is kept
-    if (++scene.mixes > 8)
-      throw bad_input(p.where, "mixes are in each other more than 8 deep, or go round in a circle");
     add_pbrt_material(scene, name, part->second, nullptr);
-    --scene.mixes;
     const auto opaque = scene.d.materials.extract(name);
     if (opaque.empty()) {
       scene.d.dielectrics.erase(name);
       scene.d.note(p.where, "the mix is left out: the heavier material in it is taken");
-      return add_pbrt_material(scene, key, scene.materials.at(names[weight > 0.5 ? 1 : 0]), nullptr);
+      return add_pbrt_material(scene, key, scene.materials.at(names[weight > 0.5 ? 1 : 0]), medium);
     }
     parts[i] = opaque.mapped();
   }
+  if (medium) scene.d.note(p.where, "the medium in it is left out: there is clear space in its place");
   scene.d.materials[key] = mixed(parts[0], parts[1], weight, p.where, scene.d);
   note_unasked(scene, p);
   return true;
@@ -353,7 +352,9 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
   const std::string& type = material.type;
   const PbrtParameters& p = material.parameters;
   const bool thin = type == "thindielectric", refracts = thin || type == "dielectric" || type == "glass";
-  if (medium && !refracts) scene.d.note(p.where, "the medium in it is left out: there is clear space in its place");
+  const bool is_mix = type == "mix" && (p.find("materials") || p.find("namedmaterial1"));
+  if (medium && !refracts && !is_mix)
+    scene.d.note(p.where, "the medium in it is left out: there is clear space in its place");
   if (type == "interface" || type.empty() || type == "none") return false;
   if (refracts) {
     DescribedGlass& glass = scene.d.dielectrics[key];
@@ -373,7 +374,7 @@ bool add_pbrt_material(PbrtScene& scene, const std::string& key, const PbrtThing
     note_unasked(scene, p);
     return true;
   }
-  if (type == "mix" && (p.find("materials") || p.find("namedmaterial1"))) return add_mix(scene, key, p);
+  if (is_mix) return add_mix(scene, key, p, medium);
   preset::Material& made = scene.d.materials[key];
   const auto reflect = [&](const char* name, double standard) {
     if (made.type == preset::Material::Type::diffuse)

@@ -21,7 +21,7 @@ struct PbrtScene {
   std::map<std::string, PbrtThing> materials{};    ///< those without a name have a number
   std::map<std::string, PbrtThing> media{};
   bool is_version_3 = false;
-  int mixes = 0; ///< how many materials of mixes are being read, each in the one before
+  int nested = 0; ///< how many mixes and textures are being read, each in the one before
 };
 
 /// A note for each parameter that nothing has asked for and that changes a picture.

@@ -57,22 +57,22 @@ std::optional<preset::Texture> picture(const std::filesystem::path& file, preset
 
 namespace {
 
-/// The picture of a texture's numbers. is_srgb: integers are encoded.
-image::Image numbers_of(const preset::Texture& texture, bool is_srgb) {
+/// The picture of a texture, linear. is_srgb: integers are encoded. Numbers have no primaries.
+image::Image linear_texels(const preset::Texture& texture, bool is_srgb, scatter::Texels texels) {
   image::Image picture = scatter::read_texels(texture.file);
   if (!is_srgb) picture.integers = false;
-  picture.chromaticities.reset();
+  if (texels == scatter::Texels::numbers) picture.chromaticities.reset();
   return {picture.width, picture.height, {"R", "G", "B"}, image::rgb_of(picture, texture.file).values};
 }
 
 /// The texture with its picture anew: change(value, channel). Else as roughness_picture; what: for the note.
 template <class Change>
-std::optional<preset::Texture> rewritten(const preset::Texture& from, bool is_srgb, const std::string& name,
-                                         const char* what, const Location& where, Description& into,
-                                         const Change& change) {
+std::optional<preset::Texture> rewritten(const preset::Texture& from, bool is_srgb, scatter::Texels texels,
+                                         const std::string& name, const char* what, const Location& where,
+                                         Description& into, const Change& change) {
   preset::Texture made = from;
   try {
-    image::Image picture = numbers_of(from, is_srgb);
+    image::Image picture = linear_texels(from, is_srgb, texels);
     for (std::size_t i = 0; i < picture.data.size(); ++i) picture.data[i] = change(picture.data[i], i % 3);
     ByteStore bytes;
     image::write_exr(bytes, picture);
@@ -88,15 +88,15 @@ std::optional<preset::Texture> rewritten(const preset::Texture& from, bool is_sr
 
 std::optional<preset::Texture> normals_with_y_up(const preset::Texture& map, bool is_srgb, const std::string& name,
                                                  const Location& where, Description& into) {
-  return rewritten(map, is_srgb, name + " normals", "the normalmap", where, into,
+  return rewritten(map, is_srgb, scatter::Texels::numbers, name + " normals", "the normalmap", where, into,
                    [](float value, std::size_t channel) { return channel == 1 ? 1 - value : value; });
 }
 
 std::optional<preset::Texture> linear_picture(const preset::Texture& picture, bool is_srgb,
                                               std::optional<double> inverted, const Location& where,
                                               Description& into) {
-  return rewritten(picture, is_srgb, std::filesystem::path(picture.file).stem().string(), "the picture", where, into,
-                   [&](float value, std::size_t) {
+  return rewritten(picture, is_srgb, scatter::Texels::colours, std::filesystem::path(picture.file).stem().string(),
+                   "the picture", where, into, [&](float value, std::size_t) {
                      return inverted ? static_cast<float>(std::max(1 - *inverted * double(value), 0.0)) : value;
                    });
 }
@@ -106,7 +106,7 @@ std::optional<glm::dvec3> mean_of(const preset::Texture& texture, bool is_srgb) 
   if (texture.type == preset::Texture::Type::checkerboard)
     return 0.5 * (vector(texture.colour0) + vector(texture.colour1));
   try {
-    const image::Image picture = numbers_of(texture, is_srgb);
+    const image::Image picture = linear_texels(texture, is_srgb, scatter::Texels::colours);
     glm::dvec3 sum(0);
     for (std::size_t i = 0; i < picture.data.size(); ++i)
       if (std::isfinite(picture.data[i])) sum[static_cast<int>(i % 3)] += double(picture.data[i]);
@@ -126,7 +126,7 @@ std::optional<preset::Texture> roughness_picture(const preset::Texture& values, 
     return made;
   }
   try {
-    const image::Image picture = numbers_of(values, is_srgb);
+    const image::Image picture = linear_texels(values, is_srgb, scatter::Texels::numbers);
     const std::vector<float>& rgb = picture.data;
     std::vector<std::uint16_t> grey;
     for (std::size_t i = 0; i < rgb.size(); i += 3) {

@@ -136,7 +136,7 @@ void add_colours(const ImageSpec& spec, Image& header) {
     header.profile = std::move(bytes);
   else if (use != ProfileUse::srgb || !header.integers)
     header.notes.push_back("its colour profile" + (profile.empty() ? "" : " '" + profile + "'") +
-                           " is not obeyed; its colours are taken as sRGB's");
+                           " is not obeyed; its colours are taken as " + (header.integers ? "sRGB's" : "linear sRGB"));
 }
 
 /// The orientation that Exif has: a TIFF, whose first directory is a list of tags.
