@@ -171,6 +171,14 @@ TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly) {
   EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
 }
 
+TEST_F(FileListTest, APresetThatIsSavedGetsItsEnding) {
+  ask(Question::save_preset);
+  press(ImGuiKey_A, ImGuiMod_Ctrl);
+  type((folder.path() / "mine").string());
+  press(ImGuiKey_Enter);
+  EXPECT_EQ(preset::read_preset((folder.path() / "mine.json").string()).name, "Test");
+}
+
 TEST_F(FileListTest, AMapIsChosenAmongMapsAndBecomesTheEnvironment) {
   for (const char* file : {"hall.hdr", "sky.EXR", "face.png", "notes.txt"}) folder.write(file, "");
   ask(Question::open_map);

@@ -35,8 +35,8 @@ void add_camera(C c) {
 
 std::vector<Action> add_actions() {
   return {
-      add_action("sphere", "A matt ball on the ground, where the camera looks", Thing::sphere),
-      add_action("glass", "A ball of glass on the ground, where the camera looks", Thing::glass),
+      add_action("sphere", "A matt ball on the ground, in sight", Thing::sphere),
+      add_action("glass", "A glass ball on the ground, in sight", Thing::glass),
       add_action("table", "A floor; where there is one, a slab", Thing::table),
       {"Add mesh...", 0, "An object from a file", has_things, ask<Question::add_mesh>, why_no_things},
       add_action("lamp", "A point light above the camera's target", Thing::lamp),

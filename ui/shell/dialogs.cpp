@@ -168,7 +168,9 @@ void Dialogs::draw_open_file(Commands& commands) {
 void Dialogs::draw_save(Commands& commands) {
   std::error_code ignored;
   const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report;
-  const bool folder = fs::is_directory(name_, ignored), there = !folder && is_there(name_);
+  const bool folder = fs::is_directory(name_, ignored), bare = !fs::path(name_).has_extension();
+  const std::string file = shown_ == Question::save_preset && bare && !name_.empty() ? name_ + ".json" : name_;
+  const bool there = !folder && is_there(file);
   // A file of the list is only named by a click: replacing it takes the button.
   const bool chosen =
       choose_name("file", 41 * em(), name_, there ? "Replace" : "Save", !name_.empty() && !folder, there);
@@ -176,7 +178,7 @@ void Dialogs::draw_save(Commands& commands) {
   if (chosen)
     commands.push_back(report    ? Command(command::WriteReport{name_})
                        : picture ? Command(command::SavePicture{name_})
-                                 : Command(command::SavePreset{name_, keep_parent_ && !parent_.empty()}));
+                                 : Command(command::SavePreset{file, keep_parent_ && !parent_.empty()}));
   if (!parent_.empty()) {
     places_.checkbox("Keep the parent", &keep_parent_, "keep the parent",
                      "Write only what differs from '" + parent_ + "', so that the file follows its changes");
@@ -206,7 +208,7 @@ void Dialogs::draw_record(Commands& commands) {
 }
 
 void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands) {
-  const std::string then = std::holds_alternative<command::Quit>(*workbench.questions().waiting()) ? "quit" : "open";
+  const std::string then = std::holds_alternative<command::Quit>(*workbench.questions().waiting()) ? "quit" : "go on";
   ImGui::TextUnformatted("The preset was changed and is not saved.");
   const std::filesystem::path target = save_target(workbench.preset());
   // What waits is carried out once the preset is saved; where saving fails the question stays.
@@ -217,7 +219,7 @@ void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands) {
       commands.push_back(command::SavePreset{target});
   }
   ImGui::SameLine();
-  if (ImGui::Button(then == "quit" ? "Quit without saving" : "Open without saving"))
+  if (ImGui::Button(then == "quit" ? "Quit without saving" : "Go on without saving"))
     commands.push_back(*workbench.questions().waiting());
   ImGui::SameLine();
   if (places_.button("Cancel", "cancel", "As Escape does: nothing is lost"))
