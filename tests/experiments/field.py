@@ -66,7 +66,8 @@ def repository(name, out):
 
 # What no Mitsuba of today knows: elements and parameters of the programs that the files were made for.
 FOREIGN = re.compile(r'<mode\b[^>]*/>|<hide\b[^>]*?(/>|>.*?</hide>)|'
-                     r'<\w+ name="(caustic_|usePathGuiding|attachLog|sunRadiusScale|extEta|ext_eta|subdiv)\w*"[^>]*/>', re.S)
+                     r'<\w+ name="(caustic_|usePathGuiding|attachLog|sunRadiusScale|extEta|ext_eta|subdiv)\w*"'
+                     r'[^>]*/>', re.S)
 
 
 def made_small(text):
