@@ -321,7 +321,8 @@ private:
       return;
     }
     const glm::dmat3 to_preset = glm::dmat3(to_preset_) * s.to_world;
-    const glm::dvec3 top = glm::normalize(to_preset[1]), centre = to_preset[2];
+    const glm::dvec3 top = glm::normalize(to_preset[1]);
+    const glm::dvec3& centre = to_preset[2];
     if (!s.is_equal_area && top.y > 1 - 1e-9 && glm::determinant(to_preset) > 0) {
       e.file = fs::absolute(s.file).lexically_normal().string();
       // Ours looks along -z, and a turn is counterclockwise seen from above: (-sin a, 0, -cos a).

@@ -65,8 +65,9 @@ image::Image map_in_preset(const DescribedSurroundings& surroundings, const glm:
     for (int column = 0; column < made.width; ++column) {
       glm::dvec3 sum(0);
       for (int i = 0; i < samples * samples; ++i) {
-        const double azimuth = 2 * pi * ((column + (i % samples + 0.5) / samples) / made.width - 0.5),
-                     zenith = pi * (row + (i / samples + 0.5) / samples) / made.height;
+        const int across = i % samples, down = i / samples;
+        const double azimuth = 2 * pi * ((column + (across + 0.5) / samples) / made.width - 0.5),
+                     zenith = pi * (row + (down + 0.5) / samples) / made.height;
         const glm::dvec3 direction(std::sin(zenith) * std::sin(azimuth), std::cos(zenith),
                                    -std::sin(zenith) * std::cos(azimuth));
         sum += map.at(place_in_map(glm::normalize(from_preset * direction), surroundings.is_equal_area));
