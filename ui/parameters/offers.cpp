@@ -54,12 +54,12 @@ void Form::offer_in(const std::vector<Outline>& fields, const Json& object, cons
     for (const auto& [type, item] : held) std::ranges::copy(o.fields(item.second), std::back_inserter(seen));
     const auto offer = [&](const std::string& type, std::string_view sentence, const Json& made) {
       const std::vector<Outline> inner = o.fields(made);
-      const auto found = std::ranges::find_if(inner, [&](const Outline& f) {
+      const auto matching = std::ranges::find_if(inner, [&](const Outline& f) {
         return !f.chooses && !is_in(seen, f.field.name) &&
                has_words(fmt::format("{} {}", f.field.name, f.field.sentence), search);
       });
       const bool by_type = has_words(fmt::format("{} {}", type, sentence), search);
-      if (!by_type && found == inner.end()) return;
+      if (!by_type && matching == inner.end()) return;
       std::string where = at, name;
       if (o.kind == Kind::map)
         name = untaken_name(type.empty() ? "new" : type, [&](const auto& n) { return value.contains(n); });
@@ -75,7 +75,7 @@ void Form::offer_in(const std::vector<Outline>& fields, const Json& object, cons
         return all;
       };
       const std::string help =
-          by_type ? std::string(sentence) : fmt::format("{}: {}", found->field.name, found->field.sentence);
+          by_type ? std::string(sentence) : fmt::format("{}: {}", matching->field.name, matching->field.sentence);
       offers.push_back({fmt::format("{}{}{}", dotted(at), type.empty() ? "" : ": ", type), help, at, where, whole});
     };
     if (chooser == own.end()) {

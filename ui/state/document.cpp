@@ -120,8 +120,6 @@ void Document::carry_out(const command::Edit& c) {
   }
 }
 
-/// Throws bad_input where the preset could not be read again: a number is out of its range, wherever it came from, or
-/// two fields contradict each other.
 namespace {
 
 /// Whether things came or went, or the surroundings are of another type.
@@ -134,6 +132,8 @@ bool has_other_things(const preset::Scene& a, const preset::Scene& b) {
 
 } // namespace
 
+/// Throws bad_input where the preset could not be read again: a number is out of its range, wherever it came from, or
+/// two fields contradict each other.
 void Document::edit(const command::Edit& c) {
   if (!edits_) return;
   services_.messages.dismiss(refused_edit_); // a drag of the mouse makes a new one at every move

@@ -86,7 +86,7 @@ void add_pbrt_light(PbrtScene& scene, const std::string& type, const PbrtParamet
       } catch (const Error& error) {
         scene.d.note(p.where, "the light's picture is left out: " + error.line());
       }
-    scene.d.note(p.where, "the light shines to all sides alike, with its power or the mean of its picture");
+    scene.d.note(p.where, "the light shines to all sides alike: the pattern of its picture is left out");
   } else
     return scene.d.note(p.where, "the light " + type + " is left out");
   scene.d.lights.push_back(light);
