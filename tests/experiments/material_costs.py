@@ -16,14 +16,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 TOUR = ROOT / "docs/tours/sun-on-a-table.md"
-QUARTER_WAVE = {"dispersion": 1.38, "thickness_nm": 100}
 GLASS = {"type": "dielectric", "dispersion": "N-BK7"}
 OAK = {"type": "plastic", "reflectance": 1, "texture": "textures/oak.png"}
 ROWS = {
     "clear glass": ("glass", GLASS),
     "glass of one index": ("glass", {**GLASS, "dispersion": 1.52}),
     "tinted glass": ("glass", {**GLASS, "tint": {"type": "table", "table": [[400, .6], [550, .95], [700, .7]]}}),
-    "coated glass": ("glass", {**GLASS, "coating": QUARTER_WAVE}),
     "frosted glass, roughness .2": ("glass", {**GLASS, "roughness": .2}),
     "frosted glass, roughness .4": ("glass", {**GLASS, "roughness": .4}),
     "diamond": ("glass", {**GLASS, "dispersion": "diamond-Peter"}),
