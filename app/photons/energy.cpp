@@ -21,6 +21,9 @@ constexpr Part parts[] = {{"emitted_w", OUTCOME_EMITTED, &EnergyBalance::emitted
                           {"escaped_w", OUTCOME_ESCAPED, &EnergyBalance::escaped_w},
                           {"lost_w", OUTCOME_LOST, &EnergyBalance::lost_w}};
 
+/// The part of the light that met glass or mirrors above which its loss is worth a warning.
+constexpr double most_lost = 0.005;
+
 void add_parts(const std::string& group, const EnergyBalance& energy, job::Snapshot& snapshot) {
   double accounted = 0;
   for (const Part& part : parts) {
@@ -59,6 +62,14 @@ void add_energy(const Energy& energy, std::uint64_t photons, job::Snapshot& snap
     snapshot.scalars.push_back({"paths", "segments", segments});
     snapshot.scalars.push_back({"paths", "segments_per_photon", segments / static_cast<double>(photons)});
   }
+  const double lost = energy.caustics.lost_w + (energy.indirect ? energy.indirect->lost_w : 0),
+               missed = energy.caustics.missed_w + (energy.indirect ? energy.indirect->missed_w : 0),
+               met = energy.caustics.emitted_w + (energy.indirect ? energy.indirect->emitted_w : 0) - missed;
+  if (lost > most_lost * met)
+    snapshot.warnings.push_back(
+        fmt::format("{:.1f} % of the light that met glass or mirrors is missing from the picture; its paths have more "
+                    "surfaces than spectral.max_surfaces, or lie in more than {} objects at once",
+                    100 * lost / met, MEDIA_DEPTH));
   if (refused > 0)
     snapshot.warnings.push_back(fmt::format(
         "{} too bright for the film and missing from the picture; move the camera or the light away from the "

@@ -33,8 +33,8 @@ using OutcomeWatts = std::array<double, OUTCOME_COUNT>;
 OutcomeWatts outcome_watts(std::span<const std::int64_t> quanta, double quanta_per_watt, double passes);
 EnergyBalance balance_of(const OutcomeWatts& watts);
 
-/// Adds the scalars of the groups "energy", "indirect_energy" and "paths", and a warning where contributions were
-/// refused. photons: the number sent.
+/// Adds the scalars of the groups "energy", "indirect_energy" and "paths", and warnings where contributions were
+/// refused, or much light was lost. photons: the number sent.
 void add_energy(const Energy& energy, std::uint64_t photons, job::Snapshot& snapshot);
 /// Reads back what add_energy added to a snapshot. "indirect_energy" is NaN where there is no such layer.
 EnergyBalance energy_of(const job::Snapshot& snapshot, const char* group = "energy");

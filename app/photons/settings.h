@@ -39,7 +39,7 @@ struct Settings {
   int photons_per_pass = 1 << 18; ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
   std::optional<int> pixel_samples;        ///< most samples of a pixel without glass and mirrors; RunPlan has a value
-  int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
+  int max_surfaces = 256;                  ///< interfaces a path may meet before it is counted as lost
   Sppm sppm;
   bool direct = true;  ///< layer: light that reaches a diffuse surface unbent
   bool caustic = true; ///< layer: light that met glass or a mirror, then one diffuse surface

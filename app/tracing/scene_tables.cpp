@@ -326,7 +326,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   // This is far enough from any place on the disc of any target, also of the one about everything.
   tables.scene.outside_distance =
       2.5f * std::max(scene_bounds(scene).radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
-  tables.scene.max_surfaces = 32;
+  tables.scene.max_surfaces = 256; // enough for a diamond; at 32 it keeps 2 % of its light to itself
   tables.scene.reflector_count = tables.wavelengths.reflector_count;
   if (tables.sky) tables.scene.sky_size = tables.sky->size;
   return tables;

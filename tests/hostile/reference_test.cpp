@@ -115,14 +115,14 @@ TEST_F(Measured, ARecipeIsOfFullQualityUnlessItSaysOtherwise) {
   EXPECT_EQ(coarse_file, fine_file) << "the same reference";
   EXPECT_EQ(fine["method"], "brute_force");
   EXPECT_EQ(fine["step_nm"], 1);
-  EXPECT_EQ(fine["max_surfaces"], 32);
+  EXPECT_EQ(fine["max_surfaces"], 256);
   const auto [own_file, own] =
       made_with("own", {R"(reference={"type":"recipe","passes":1,"spectral":{"method":"brute_force","step_nm":8}})",
                         brute, "spectral.step_nm=40"});
   EXPECT_NE(own_file, fine_file) << "one of another recipe is not taken for it";
   EXPECT_EQ(own["step_nm"], 8);
-  const auto [long_file, longer] = made_with("long", {one, "spectral.max_surfaces=64"});
-  EXPECT_EQ(longer["max_surfaces"], 64) << "no shorter paths than the run's";
+  const auto [long_file, longer] = made_with("long", {one, "spectral.max_surfaces=300"});
+  EXPECT_EQ(longer["max_surfaces"], 300) << "no shorter paths than the run's";
 }
 
 TEST_F(Measured, UntilAnError) {

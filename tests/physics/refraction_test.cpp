@@ -3,6 +3,7 @@
 // `nephroid check`.
 #include "optics/dispersion.h"
 #include "optics/dispersion_file.h"
+#include "preset/read.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 
@@ -114,6 +115,19 @@ TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones) {
   expect_share("total reflection: light that leaves a cube of n = 2", e.deposited_w / e.emitted_w, truth, photons);
   expect_share("total reflection: light that stays in it", e.lost_w / e.emitted_w, 1 - truth, photons);
   EXPECT_NEAR(e.emitted_w, 1, 1e-6);
+}
+
+// A cut stone sends light round and round. What ends inside is missing from the picture, and the run says so.
+TEST(TotalReflection, AStoneLosesNoLightAndARunSaysWhereItIsLost) {
+  preset::Preset p = preset::read_preset("spectral/brilliant");
+  p.scene.camera.resolution = {16, 16};
+  p.stop.passes = 1;
+  const job::Snapshot whole = render(p);
+  const photons::EnergyBalance e = photons::energy_of(whole);
+  EXPECT_LT(e.lost_w, 1e-4 * e.emitted_w);
+  EXPECT_THAT(whole.warnings, testing::IsEmpty());
+  spectral::settings(p).max_surfaces = 32;
+  EXPECT_THAT(render(p).warnings, testing::ElementsAre(testing::HasSubstr("is missing from the picture")));
 }
 
 } // namespace nephroid::refraction_test
