@@ -55,8 +55,13 @@ TEST_F(GltfImport, WhatEmitsShines) {
   const double k = formats::lumens_per_watt(scatter::make_light_spectrum(p.scene.lights[0].spectrum, "spectrum"));
   EXPECT_NEAR(p.scene.lights[0].power_w * k, 1000 * std::numbers::pi * 0.5, 1e-3); // cd/m^2 of half a square metre
   material["emissiveTexture"]["index"] = 0;
-  EXPECT_EQ(imported(json).scene.lights[0].type, preset::Light::Type::point); // the lamp above
-  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("material 'wall' does not shine here")));
+  json["textures"] = {{{"source", 0}}};
+  json["images"] = {{{"uri", "glow.png"}}};
+  image::write_png_bytes(folder.path() / "glow.png", 2, 1, {0, 0, 0, 255, 255, 255, 255, 255});
+  const double whole = p.scene.lights[0].power_w;
+  EXPECT_NEAR(imported(json).scene.lights[0].power_w, whole / 2, 1e-5 * whole);
+  EXPECT_THAT(made.notes,
+              testing::Contains(HasSubstr("material 'wall': the picture of its light is taken by its mean")));
 }
 
 TEST_F(GltfImport, BinaryFilesAndBuffersBesideTheFileAreRead) {

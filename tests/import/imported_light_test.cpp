@@ -29,9 +29,36 @@ TEST_F(ImportedLight, ALargeSceneIsAsBrightAsASmallOne) {
     return p.scene.lights.at(0).power_w / p.white.value() / size / size;
   };
   const double small = brightness(1);
-  EXPECT_THAT(made.notes, Each(Not(HasSubstr("a lamp has more"))));
+  EXPECT_THAT(made.notes, Each(Not(HasSubstr("a light has more"))));
   EXPECT_NEAR(brightness(1e5) / small, 1, 1e-6);
-  EXPECT_THAT(made.notes, Contains(HasSubstr("a lamp has more than 1e+09 W: all light is")));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("a light has more than 1e+09 W, or its radiance is more")));
+}
+
+// Ten times the number is ten times the light, however large it is, in each kind of light.
+TEST_F(ImportedLight, ColoursHaveNoLimit) {
+  const auto light = [&](const char* emitter, double scale) {
+    std::string scene = "<shape type='sphere'/>" + std::string(emitter);
+    for (std::size_t at; (at = scene.find("SCALE")) != std::string::npos;)
+      scene.replace(at, 5, fmt::format("{} {} {}", 4 * scale, 2 * scale, scale));
+    const preset::Preset p = mitsuba(scene);
+    double sum = 0;
+    if (!p.scene.lights.empty()) {
+      const preset::Light& lamp = p.scene.lights[0];
+      sum = lamp.type == preset::Light::Type::directional ? lamp.irradiance_w_m2 : lamp.power_w;
+    }
+    if (p.scene.environment) sum += p.scene.environment->radiance * p.scene.environment->colour[1];
+    return sum / p.white.value();
+  };
+  for (const char* emitter :
+       {"<emitter type='point'><rgb name='intensity' value='SCALE'/></emitter>",
+        "<emitter type='directional'><vector name='direction' x='0' y='-1' z='0'/><rgb name='irradiance' "
+        "value='SCALE'/></emitter>",
+        "<shape type='sphere'><emitter type='area'><rgb name='radiance' value='SCALE'/></emitter></shape>",
+        "<emitter type='constant'><rgb name='radiance' value='SCALE'/></emitter>"}) {
+    const double one = light(emitter, 1);
+    EXPECT_GT(one, 0) << emitter;
+    for (const double scale : {1e4, 1e7, 1e9}) EXPECT_NEAR(light(emitter, scale) / one / scale, 1, 1e-6) << emitter;
+  }
 }
 
 // A preset's lamp has rows of a table. Their light has the colour, also where the smoothest spectrum is negative.

@@ -75,6 +75,32 @@ TEST_F(ImportedSurfaces, HaveABackOfTheirOwn) {
             2u);
 }
 
+// The back of what is curved is a surface, too, where somebody may see it: the outside of what faces inwards, the
+// inside of what is open or has the camera in it.
+TEST_F(ImportedSurfaces, HaveABackWhereTheyAreCurved) {
+  const auto backs = [&](const std::string& shapes) {
+    const preset::Preset p = mitsuba("<sensor type='perspective'/>" + shapes);
+    return std::ranges::count(p.scene.objects, "black back", &preset::Object::material);
+  };
+  const std::string flipped = "<boolean name='flip_normals' value='true'/>",
+                    sphere = "<shape type='sphere'><float name='radius' value='", cube = "<shape type='cube'>",
+                    far = "<transform name='to_world'><translate x='900'/></transform>",
+                    wide = "<transform name='to_world'><scale value='900'/></transform>";
+  EXPECT_EQ(backs(sphere + "1'/>" + far + matt(0.2) + "</shape>"), 0);
+  EXPECT_EQ(backs(sphere + "900'/>" + matt(0.2) + "</shape>"), 1) << "the camera is in it";
+  EXPECT_EQ(backs(sphere + "1'/>" + far + flipped + matt(0.2) + "</shape>"), 1);
+  EXPECT_EQ(backs(cube + far + matt(0.2) + "</shape>"), 0);
+  EXPECT_EQ(backs(cube + wide + matt(0.2) + "</shape>"), 1) << "the camera is in it";
+  EXPECT_EQ(backs(cube + far + flipped + matt(0.2) + "</shape>"), 1);
+  EXPECT_EQ(backs("<shape type='cylinder'>" + matt(0.2) + "</shape>"), 1) << "it is open";
+  EXPECT_EQ(backs("<shape type='cylinder'>" + twosided(matt(0.2)) + "</shape>"), 0);
+  const preset::Preset ball = mitsuba(sphere + "2'/>" + flipped + matt(0.2) + "</shape>");
+  ASSERT_EQ(ball.scene.objects.size(), 2u);
+  const double front = ball.scene.objects[0].transform.scale[0], back = ball.scene.objects[1].transform.scale[0];
+  EXPECT_GT(back, front) << "the back is around what faces inwards";
+  EXPECT_LT(back, front + 1e-4);
+}
+
 TEST_F(ImportedSurfaces, OfOneKindAreBlended) {
   const auto blend = [](const std::string& bsdfs) {
     return rectangle(twosided("<bsdf type='blendbsdf'><float name='weight' value='.75'/>" + bsdfs + "</bsdf>"));

@@ -127,7 +127,7 @@ TEST_F(SceneImport, SurfacesStayAndShine) {
     <shape type="rectangle"><emitter type="area"/></shape>
     <shape type="cube"><boolean name="flipNormals" value="true"/><emitter type="area"/></shape></scene>)",
                "in.xml");
-  ASSERT_EQ(p.scene.objects.size(), 4u) << "the rectangle's back is black";
+  ASSERT_EQ(p.scene.objects.size(), 5u) << "the backs of the rectangle and the cube are black";
   ASSERT_EQ(p.scene.lights.size(), 3u);
   const std::vector<preset::Light>& lights = p.scene.lights;
   for (const std::size_t i : {0, 1, 2}) {

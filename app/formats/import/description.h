@@ -40,7 +40,7 @@ struct DescribedShape {
   std::optional<DescribedColour> glow; ///< radiance of its outside
   std::optional<double> glow_power;    ///< of all of it, in the file's unit, times the luminance of its glow
   bool glows_on_both_sides = false;    ///< only where it is flat
-  std::optional<std::string> back;     ///< the material of its back, where that has another; only where it is flat
+  std::optional<std::string> back;     ///< the material of its back, where that has another
 };
 
 /// A dielectric of the file.

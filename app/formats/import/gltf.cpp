@@ -11,12 +11,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <system_error>
 #include <tuple>
 #include <utility>
 
 namespace nephroid::formats {
+namespace fs = std::filesystem;
 namespace {
 
 /// Extensions, and the note on what is left out with them; empty where all of it is done. Others are named.
@@ -155,23 +157,29 @@ private:
     void times(double low, double high) { least *= low, most *= high; }
   };
 
+  /// Calls `use` with the file of a picture, which may be one of the moment, where there is one.
+  template <class Use>
+  void with_file_of(std::size_t image, const Use& use) {
+    GltfMeshes::Picture picture = meshes_.picture(root_.item("images", image));
+    std::optional<TemporaryFolder> folder;
+    if (picture.file.empty()) {
+      picture.file = folder.emplace().path() / (picture.bytes.starts_with("\x89PNG") ? "picture.png" : "picture.jpg");
+      write_file_whole(picture.file, picture.bytes);
+    }
+    if (is_there(picture.file)) use(picture.file);
+  }
+
   /// Of a file's picture.
   Alpha alpha_of_picture(std::size_t image) {
     const auto [found, is_new] = alphas_.try_emplace(image);
     if (!is_new) return found->second;
-    GltfMeshes::Picture picture = meshes_.picture(root_.item("images", image));
-    const bool is_own = picture.file.empty();
-    if (is_own ? !picture.bytes.starts_with("\x89PNG") : !is_there(picture.file)) return {}; // JPEG has no alpha
-    std::optional<TemporaryFolder> folder;
-    if (is_own) {
-      picture.file = folder.emplace().path() / "picture.png";
-      write_file_whole(picture.file, picture.bytes);
-    }
     image::Image read;
-    try {
-      read = image::read_image(picture.file);
-    } catch (const Error&) { // who takes its colours says so
-    }
+    with_file_of(image, [&](const fs::path& file) {
+      try {
+        read = image::read_image(file);
+      } catch (const Error&) { // who takes its colours says so
+      }
+    });
     const auto channel = static_cast<std::size_t>(std::ranges::find(read.channels, "A") - read.channels.begin());
     if (read.data.empty() || channel == read.channels.size()) return {};
     float low = 1, high = 0;
@@ -180,6 +188,22 @@ private:
       high = std::max(high, read.data[i]);
     }
     return found->second = {low, high};
+  }
+
+  /// The radiance of a surface, in cd/m^2; the picture of its light by its mean.
+  glm::dvec3 glow_of(const GltfValue& material, const std::string& name) {
+    const auto emission = emission_of(material);
+    const glm::dvec3 rgb(emission[0], emission[1], emission[2]);
+    const GltfValue info = material.object("emissiveTexture");
+    if (rgb == glm::dvec3(0) || !info.has("index")) return rgb;
+    const GltfValue texture = info.item("index", root_, "textures");
+    std::optional<glm::dvec3> mean;
+    if (texture.has("source"))
+      with_file_of(texture.index("source", root_, "images"),
+                   [&](const fs::path& file) { mean = mean_of({.file = file.string()}, true); });
+    d_.note(fmt::format("material '{}': the picture of its light {}", name,
+                        mean ? "is taken by its mean" : "cannot be read and is left out"));
+    return rgb * mean.value_or(glm::dvec3(1));
   }
 
   /// Whether some of a primitive is there, by its alpha.
@@ -254,8 +278,7 @@ private:
       shape.states = states_of(node, mesh, {keys->second.begin() + 1, keys->second.end()});
       if (primitives[p].has("material")) {
         const GltfValue surface = root_.item("materials", primitives[p].index("material", root_, "materials"));
-        const auto emission = emission_of(surface);
-        const glm::dvec3 rgb(emission[0], emission[1], emission[2]);
+        const glm::dvec3 rgb = glow_of(surface, shape.material);
         if (rgb != glm::dvec3(0)) shape.glow.emplace().rgb = rgb / most_lumens;
         shape.glows_on_both_sides = surface.truth("doubleSided", false);
       }
@@ -429,7 +452,7 @@ private:
 
 } // namespace
 
-void describe_gltf(const std::filesystem::path& file, Description& into) {
+void describe_gltf(const fs::path& file, Description& into) {
   const GltfFile gltf = read_gltf(file);
   GltfReader(gltf, into);
 }

@@ -233,10 +233,8 @@ preset::Material material_without_textures(const GltfValue& value, const std::st
                                            std::vector<std::string>& notes) {
   const bool is_glass = transmitted_part(value) >= 0.5, is_metal = metal_part(value) >= 0.5;
   const bool shines = value.numbers<3>("emissiveFactor", {0, 0, 0}) != std::array<double, 3>{0, 0, 0};
-  if (shines && (is_glass || value.has("emissiveTexture")))
-    notes.push_back(fmt::format("material '{}' does not shine here: only matt and metal surfaces do, without a texture "
-                                "of their light",
-                                name));
+  if (shines && is_glass)
+    notes.push_back(fmt::format("material '{}' does not shine here: only matt and metal surfaces do", name));
   if (is_glass) return glass(value, name, notes);
   const GltfValue pbr = value.object("pbrMetallicRoughness");
   const GltfValue older = value.extension("KHR_materials_pbrSpecularGlossiness"); // takes the other's place
@@ -282,14 +280,14 @@ double lumens_per_watt(const optics::Spectrum& spectrum) {
 std::array<double, 3> emission_of(const GltfValue& material) {
   const double strength = material.extension("KHR_materials_emissive_strength").number("emissiveStrength", 1);
   std::array<double, 3> rgb = material.numbers<3>("emissiveFactor", {0, 0, 0});
-  const bool shines = transmitted_part(material) < 0.5 && !material.has("emissiveTexture");
+  const bool shines = transmitted_part(material) < 0.5;
   for (double& x : rgb) x = shines ? std::max(x * strength, 0.0) : 0;
   return rgb;
 }
 
 LightColour light_colour(const std::array<double, 3>& rgb) {
   std::array<double, 3> colour = rgb;
-  for (double& c : colour) c = std::clamp(c, 0.0, 1e6);
+  for (double& c : colour) c = std::max(c, 0.0);
   const double luminance = optics::linear_srgb_to_xyz(colour)[1];
   LightColour light; // D65
   const double largest = std::max({colour[0], colour[1], colour[2]}),

@@ -5,6 +5,7 @@
 #include "base/counted.h"
 #include "base/files.h"
 #include "base/lower_case.h"
+#include "formats/import/backs.h"
 #include "formats/import/dielectrics.h"
 #include "formats/import/emitter.h"
 #include "formats/import/gltf_scene.h"
@@ -68,7 +69,6 @@ public:
                       fmt::format("expected at most {}", most_objects),
                       "join those of one material in the program that made them");
     for (const DescribedShape& shape : from_.shapes) add(shape);
-    for (const DescribedShape& shape : from_.shapes) cover_back(shape);
     if (made_.scene.objects.empty())
       throw bad_input(from_.source.string(), "has no triangles in its scene, and no sphere",
                       "expected a surface that can be taken over");
@@ -80,6 +80,7 @@ public:
     else
       look_at_all();
     if (made_.scene.lights.empty() && !made_.scene.environment) light_all();
+    for (const DescribedShape& shape : from_.shapes) cover_back(shape);
     expose();
     dim();
     for (std::string& line : made_.not_imported = from_.notes)
@@ -226,29 +227,22 @@ private:
     if (both && shape.glow_power) light.power_w /= 2; // that of both
     keep_glowing(shape, light);
     if (!both) return;
-    DescribedShape back = behind(shape, e, 1e-4 * std::sqrt(e.area));
+    DescribedShape back = behind(shape, to_preset_, 1e-4 * std::sqrt(e.area), from_);
     back.inside_out = !shape.inside_out;
     keep_glowing(std::move(back), light);
   }
 
-  /// The same shape behind a flat one, by so much.
-  DescribedShape behind(const DescribedShape& shape, const Emitter& flat, double distance) const {
-    DescribedShape back = shape;
-    const glm::dvec3 way = (shape.inside_out ? distance : -distance) * flat.normal;
-    back.to_world = glm::translate(glm::dmat4(1), glm::inverse(glm::dmat3(to_preset_)) * way) * shape.to_world;
-    return back;
-  }
-
-  /// A surface with the material of its back behind what is flat. Nobody sees the back of what is closed.
+  /// A surface with the material of its back behind what shows that. To be called when all is seen and lit.
   void cover_back(const DescribedShape& shape) {
-    if (!shape.back || shape.mesh.empty()) return;
-    const Emitter e = emitter_of(from_.meshes.at(shape.mesh), to_preset_ * shape.to_world);
-    if (!e.flat && glm::length(e.normal) > 1e-3 * e.area)
-      from_.note(shape.where, "a curved surface has one material on both its sides here");
-    if (!e.flat) return;
+    if (!shape.back) return;
+    std::vector<glm::dvec3> places{scene::to_dvec3(made_.scene.camera.position)};
+    for (const preset::Light& light : made_.scene.lights)
+      if (!shape.glow && light.type != preset::Light::Type::directional)
+        places.push_back(scene::to_dvec3(light.position));
+    if (!shows_back(shape, to_preset_, places, from_)) return;
     if (made_.scene.objects.size() >= most_objects)
       return from_.note(fmt::format("backs of surfaces beyond {} objects are as their fronts", most_objects));
-    DescribedShape back = behind(shape, e, 4e-6 * size()); // a thin wall may be there
+    DescribedShape back = behind(shape, to_preset_, 4e-6 * size(), from_); // a thin wall may be there
     back.material = *shape.back;
     back.name = shape.name + " back";
     back.glow.reset();
@@ -317,7 +311,9 @@ private:
     }
     if (s.file.empty()) {
       e.type = preset::Environment::Type::constant;
-      e.colour = scene::to_vec3(s.colour);
+      const double largest = std::max({s.colour.x, s.colour.y, s.colour.z, 1.0});
+      e.colour = scene::to_vec3(s.colour / largest);
+      e.radiance *= largest;
       return;
     }
     const glm::dmat3 to_preset = glm::dmat3(to_preset_) * s.to_world;
@@ -387,8 +383,8 @@ private:
     made_.white = white / from_.exposure;
   }
 
-  /// A preset's lamp has at most so much light. Where one has more, as in a scene of millimetres that is read as one of
-  /// metres, all light and what is white become less by the same factor: the picture stays.
+  /// A preset's lights have at most so much light. Where one has more, as in a scene of millimetres that is read as one
+  /// of metres, all light and what is white become less by the same factor: the picture stays.
   void dim() {
     double most = preset::power_bounds.high;
     for (const preset::Light& light : made_.scene.lights) {
@@ -396,11 +392,13 @@ private:
         throw bad_input(from_.source.string(), "has a lamp whose light is no finite number");
       most = std::max({most, light.power_w, light.irradiance_w_m2});
     }
+    if (made_.scene.environment) most = std::max(most, made_.scene.environment->radiance);
     const double part = preset::power_bounds.high / most;
     if (part < 1)
-      from_.note(fmt::format("a lamp has more than {:g} W: all light is {:.3g} times that of the file, and so is what "
-                             "is white",
-                             preset::power_bounds.high, part));
+      from_.note(
+          fmt::format("a light has more than {:g} W, or its radiance is more than that: all light is {:.3g} times "
+                      "that of the file, and so is what is white",
+                      preset::power_bounds.high, part));
     for (preset::Light& light : made_.scene.lights) light.power_w *= part, light.irradiance_w_m2 *= part;
     if (made_.scene.environment) {
       made_.scene.environment->radiance *= part;
