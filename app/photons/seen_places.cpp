@@ -103,21 +103,48 @@ void SeenPlaces::serialize(Archive& archive) {
   archive.list(places);
 }
 
-SeenPlaces seen_places(const scene::Scene& scene, const scene::Bvh& bvh) {
-  SeenPlaces seen{scene.camera, scene.geometry.positions, scene.object_of_primitive, scene.geometry.ellipsoids,
-                  std::vector<SeenPlace>(scene.camera.pixels())};
-  if (scene.camera.receiver >= 0) return seen;
-  const auto width = static_cast<std::size_t>(scene.camera.width);
+namespace {
+
+/// way_to: the object of the place that a pixel shows and the first one on the way there, as SeenPlace has them.
+template <class WayTo>
+SeenPlaces places_of(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int most_surfaces,
+                     const WayTo& way_to) {
+  SeenPlaces seen{camera, scene.geometry.positions, scene.object_of_primitive, scene.geometry.ellipsoids,
+                  std::vector<SeenPlace>(camera.pixels())};
+  if (camera.receiver >= 0) return seen;
+  const auto width = static_cast<std::size_t>(camera.width);
   for_ranges(seen.places.size(), width, [&](std::size_t row, Range pixels) {
     for (std::size_t i = pixels.begin; i < pixels.end; ++i) {
-      const PixelSurfaces surfaces =
-          surfaces_of_pixel(scene, bvh, scene.camera, static_cast<int>(i - pixels.begin), static_cast<int>(row));
+      const PixelSurfaces surfaces = surfaces_of_pixel(scene, bvh, camera, static_cast<int>(i - pixels.begin),
+                                                       static_cast<int>(row), most_surfaces);
       const float cosine = std::abs(glm::dot(surfaces.last.normal, surfaces.way));
+      const auto [object, first] = way_to(surfaces);
       seen.places[i] = {surfaces.last.position, surfaces.spacing / std::max(cosine, least_of_way),
-                        surfaces.last.primitive, surfaces.last.object, surfaces.first.object};
+                        surfaces.last.primitive, object, first};
     }
   });
   return seen;
+}
+
+} // namespace
+
+SeenPlaces seen_places(const scene::Scene& scene, const scene::Bvh& bvh) {
+  return places_of(scene, bvh, scene.camera, 32, [](const PixelSurfaces& surfaces) {
+    return std::pair(surfaces.last.object, surfaces.first.object);
+  });
+}
+
+SeenPlaces matt_places(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera) {
+  const auto objects = static_cast<int>(scene.objects.size());
+  return places_of(scene, bvh, camera, 1, [&](const PixelSurfaces& surfaces) {
+    int object = surfaces.first.object;
+    if (object < 0 ||
+        material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != preset::Material::Type::diffuse)
+      object = -1;
+    else if (glm::dot(surfaces.last.normal, surfaces.way) > 0)
+      object += objects; // its other side
+    return std::pair(object, object);
+  });
 }
 
 bool has_parts_of(const scene::Scene& scene, const SeenPlaces& before) {

@@ -39,6 +39,10 @@ struct SeenPlaces {
 /// Sends one ray through the middle of every pixel, on every core, through glass and by way of mirrors.
 SeenPlaces seen_places(const scene::Scene& scene, const scene::Bvh& bvh);
 
+/// The same of matt surfaces that a camera sees directly; elsewhere nothing is seen. camera: any in the scene. The two
+/// sides of an object count as two.
+SeenPlaces matt_places(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera);
+
 /// Whether a scene has a picture of the same size, and the same objects with as many vertices and primitives, moved or
 /// not.
 bool has_parts_of(const scene::Scene& scene, const SeenPlaces& before);

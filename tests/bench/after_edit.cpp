@@ -111,17 +111,17 @@ void print_first_pictures(EditedRun& run, int edits) {
   fmt::print("{:.4f},{:.4f}\n", seconds[seconds.size() / 2], seconds.back());
 }
 
+/// own_: of the run's own picture, without the light that it keeps.
 void print_errors(const std::vector<Shown>& shown, const measure::LinearPicture& truth, const std::string& folder) {
-  fmt::print("seconds,previous,lab_mean,rel_l2,flip\n");
-  std::shared_ptr<const job::Picture> last;
-  measure::Metrics m;
+  fmt::print("seconds,previous,lab_mean,rel_l2,flip,own_lab_mean,own_rel_l2\n");
   for (const Shown& s : shown) {
-    const job::Picture& picture = *s.snapshot->picture;
-    if (s.snapshot->picture != last)
-      m = measure::compare({picture.width, picture.height, picture.rgb, "the run"}, truth.pixels());
-    last = s.snapshot->picture;
-    fmt::print("{},{},{:.3f},{:.4f},{:.4f}\n", s.seconds, s.previous ? "previous" : "", m.lab_mean, m.rel_l2,
-               m.flip.value_or(NAN));
+    const job::Picture &own = *s.snapshot->picture, &picture = s.snapshot->in_view ? *s.snapshot->in_view : own;
+    const auto compared = [&](const job::Picture& of) {
+      return measure::compare({of.width, of.height, of.rgb, "the run"}, truth.pixels());
+    };
+    const measure::Metrics m = compared(picture), without = compared(own);
+    fmt::print("{},{},{:.3f},{:.4f},{:.4f},{:.3f},{:.4f}\n", s.seconds, s.previous ? "previous" : "", m.lab_mean,
+               m.rel_l2, m.flip.value_or(NAN), without.lab_mean, without.rel_l2);
     image::write_png(fmt::format("{}/{:05.2f}.png", folder, s.seconds), picture.width, picture.height, picture.rgb);
   }
 }

@@ -44,7 +44,10 @@ compute::Context DeviceRuns::device() {
 }
 
 NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
-  if (reread_.exchange(false)) run_.prepared.reset();
+  if (reread_.exchange(false)) {
+    run_.prepared.reset();
+    kept_light_ = {};
+  }
   if (reopen_.exchange(false)) {
     run_.device.close();
     const std::lock_guard lock(opening_);
@@ -53,7 +56,9 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   }
   if (watcher_.joinable()) { // the sources are read below, so changes until here are in this run
     const std::lock_guard lock(watching_);
-    seen_ = compute::kernel_times(kernels_);
+    compute::KernelTimes now = compute::kernel_times(kernels_);
+    if (seen_ && now != *seen_) kept_light_ = {};
+    seen_ = std::move(now);
     changed_ = false;
   }
   std::vector<std::string> notes;
@@ -65,7 +70,11 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   plan->notes.insert(plan->notes.end(), notes.begin(), notes.end());
   SceneFacts facts;
   if (take_facts_) facts = take_facts_(preset, run_.prepared->loaded);
-  return {std::move(run_.job),        std::move(plan), run_.reference, std::move(facts), run_.device.opened().device(),
+  return {kept_light_.kept_by(std::move(run_.job), *run_.prepared),
+          std::move(plan),
+          run_.reference,
+          std::move(facts),
+          run_.device.opened().device(),
           run_.prepared->preset.white};
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include "compute/compute.h"
 #include "run/ready.h"
+#include "ui/state/kept_light.h"
 #include "ui/state/run_in_hand.h"
 
 #include <atomic>
@@ -43,6 +44,7 @@ private:
   std::mutex opening_;
   std::optional<compute::Context> opened_; ///< for run_; beside_ has a queue of its own there. Guarded by opening_
   run::ReadyRun run_;                      ///< the newest one, without its job; the worker's thread only
+  KeptLight kept_light_;                   ///< of run_'s jobs
   run::ReadyRun beside_;                   ///< the same of small pictures
   std::atomic<bool> changed_{false}, reread_{false}, reopen_{false}, reopen_beside_{false};
   std::mutex watching_;                      ///< held while the folder is read
