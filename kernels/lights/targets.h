@@ -192,7 +192,7 @@ static inline Emission cone_lattice(float3 from, float3 axis, float one_minus_co
   if (target >= 0) {
     const float3 way = targets[target].centre_radius.xyz - from;
     distance = length(way);
-    if (distance > 0.0f) axis = way / distance;
+    axis = distance > 0.0f ? way / distance : (float3)(0.0f, 0.0f, 1.0f);
     one_minus_cos = one_minus_cos_of(targets[target].centre_radius, from);
   }
   float3 x, y;

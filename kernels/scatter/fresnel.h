@@ -3,7 +3,7 @@
 // cos of the refraction angle from sin(theta_t) = eta sin(theta_i), eta = n_i / n_t; negative: total internal
 // reflection. 1 - eta^2 (1 - cos_i^2) is a product of sums, which keeps its sign at the critical angle.
 static inline float refracted_cosine(float cos_i, float eta) {
-  const float sin_i = sqrt((1.0f - cos_i) * (1.0f + cos_i));
+  const float sin_i = sqrt(fmax((1.0f - cos_i) * (1.0f + cos_i), 0.0f)); // a cosine is rounded, and may be above 1
   const float sin_t = eta * sin_i;
   const float cos2 = (1.0f - sin_t) * (1.0f + sin_t);
   return cos2 < 0.0f ? -1.0f : sqrt(cos2);

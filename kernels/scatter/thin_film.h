@@ -39,7 +39,7 @@ static inline float layer_reflectance(float2 front, float2 back, float phase, bo
 
 // Mean of both polarisations. cos_t: beyond the layer, not negative.
 static inline float coated_reflectance(float cos_i, float cos_t, float n_i, float n_t, ThinFilm film) {
-  const float sine = n_i * sqrt((1.0f - cos_i) * (1.0f + cos_i)) / film.n;
+  const float sine = n_i * sqrt(fmax((1.0f - cos_i) * (1.0f + cos_i), 0.0f)) / film.n;
   const float cos2 = (1.0f - sine) * (1.0f + sine), cosine = fmax(sqrt(fabs(cos2)), 1e-6f);
   const float phase = 4.0f * PI_F * film.n * film.thickness * cosine;
   const bool evanescent = cos2 < 0.0f;

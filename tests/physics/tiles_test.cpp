@@ -66,6 +66,35 @@ TEST(Tiles, MeetEdgeToEdgeUnderAPlate) {
   }
 }
 
+// From the middle of a ball light goes straight out, and what is reflected comes back through the middle: the floor has
+// the light of the bare lamp, whose sines of incidence are 0 but for rounding.
+TEST(Tiles, AreEvenAroundALampInTheMiddleOfABall) {
+  constexpr double height = 1;
+  for (const double aside : {0.0, 1e-4}) {
+    preset::Preset p = by_tiles(empty_preset());
+    p.scene.materials = {{"glass", glass(1.5)}, {"white", white()}};
+    preset::Shape ball;
+    ball.radius = 0.4;
+    p.scene.objects = {object("ball", ball, "glass"), object("floor", quad(100, 100), "white", at({0, -height, 0}))};
+    p.scene.lights = {{.spectrum = line(550), .power_w = 4 * std::numbers::pi, .position = {aside, 0, 0}}};
+    spectral::settings(p).photons_per_pass = 1 << 16;
+    p.stop.passes = 4;
+    const Screen screen{{0.9, -height, 0.9}, 0.8, 16};
+    screen.fill(p.scene.camera, 0.1);
+    const std::vector<double> light = watts(render(p), "caustic", screen, spectrum_of(p.scene.lights[0]));
+    double error = 0;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x) {
+        const double to_x = 0.9 + 0.8 * ((x + 0.5) / 16 - 0.5), to_z = 0.9 + 0.8 * ((y + 0.5) / 16 - 0.5),
+                     truth = height / std::pow(std::sqrt(to_x * to_x + to_z * to_z + height * height), 3) *
+                             screen.pixel_area();
+        error += std::pow(light[static_cast<std::size_t>(16 * y + x)] / truth - 1, 2) / (16 * 16);
+      }
+    expect_truth(fmt::format("tiles from the middle of a ball, {} aside: rms error of a pixel", aside),
+                 std::sqrt(error), 0, 0.1);
+  }
+}
+
 /// A ball of glass over a receiver, seen from above.
 preset::Preset ball_over(const preset::Object& receiver) {
   preset::Preset p = empty_preset(48);

@@ -57,9 +57,10 @@ TEST_F(KeptLightTest, StaysWhileTheCameraMovesAndIsOfNoOtherScene) {
   // The camera goes on before the run has a picture of its own: what is kept is of the first.
   preset.scene.camera.position = {0.6, 3, 4};
   EXPECT_NE(run(preset, runs, 1).in_view, nullptr);
+  preset.scene.camera.position = {0.7, 3, 4};
   EXPECT_NE(run(preset, runs).in_view, nullptr);
 
-  preset.scene.camera.position = {0.6, -3, 4}; // the floor from below is dark
+  preset.scene.camera.position = {0.7, -3, 4}; // the floor from below is dark
   const job::Snapshot below = run(preset, runs, 1);
   ASSERT_NE(below.in_view, nullptr);
   EXPECT_EQ(below.in_view->rgb, below.picture->rgb);
