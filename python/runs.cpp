@@ -3,6 +3,7 @@
 #include "job/worker.h"
 #include "preset/origins.h"
 #include "python/bindings.h"
+#include "run/exposure.h"
 #include "run/ready.h"
 #include "run/recorder.h"
 #include "run/write_run.h"
@@ -87,10 +88,17 @@ public:
     const std::scoped_lock lock(mutex_);
     return doing_;
   }
+  /// Those of the plan and the folder, and in the end how bright the picture is.
   std::vector<std::string> notes() const {
-    check_process();
+    const std::shared_ptr<job::Worker> held = worker();
+    const bool finished = held->status().state == job::State::finished;
+    const std::shared_ptr<const job::Snapshot> shown = held->snapshot();
     const std::scoped_lock lock(mutex_);
-    return notes_;
+    std::vector<std::string> notes = notes_;
+    if (finished && shown && shown->picture && origin_)
+      if (std::string note = run::exposure_note(*shown->picture, origin_->prepared.preset, "white={}"); !note.empty())
+        notes.push_back(std::move(note));
+    return notes;
   }
 
   /// Waits for the slice in hand. A call of another thread that is at it keeps the worker until it returns.

@@ -42,7 +42,7 @@ double white_for(const job::Picture& picture) {
   return middle > 0 ? std::clamp(std::stod(fmt::format("{:.1e}", 2 * middle)), 1e-12, 1e12) : 1;
 }
 
-std::string exposure_note(const job::Picture& picture, const preset::Preset& preset) {
+std::string exposure_note(const job::Picture& picture, const preset::Preset& preset, const std::string& white_by) {
   constexpr double most_above = 0.2, blackest = 0.5 / 255 / 12.92; // that is shown as more than 0
   constexpr double little = 1.5;                                   // of a factor that changes
   if (!preset::has_white(preset) || picture.rgb.empty()) return {};
@@ -56,10 +56,11 @@ std::string exposure_note(const job::Picture& picture, const preset::Preset& pre
   const double part = 3 * static_cast<double>(above) / static_cast<double>(picture.rgb.size());
   if (!(most > 0)) return "the picture is black: no light comes to the camera";
   if (most > blackest && (part < most_above || white_for(picture) < little)) return {};
-  return fmt::format("{}: --set white={:.2g} shows it",
+  const std::string white = fmt::format("{:.2g}", preset.white.value_or(1) * white_for(picture));
+  return fmt::format("{}: {} shows it",
                      most > blackest ? fmt::format("{:.0f} % of the picture is above white", 100 * part)
                                      : std::string("the picture is too dark to be seen"),
-                     preset.white.value_or(1) * white_for(picture));
+                     fmt::format(fmt::runtime(white_by), white));
 }
 
 double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device,

@@ -15,8 +15,9 @@ namespace nephroid::run {
 double white_for(const job::Picture& picture);
 
 /// What is wrong with how bright a picture is, and the white that would show it: a fifth of it or more is above white,
-/// or all of it is black. Else empty.
-std::string exposure_note(const job::Picture& picture, const preset::Preset& preset);
+/// or all of it is black. Else empty. white_by: how to give that white, with {} in its place.
+std::string exposure_note(const job::Picture& picture, const preset::Preset& preset,
+                          const std::string& white_by = "--set white={}");
 
 /// The same as white_for of the preset's first whole picture, at most 256 pixels wide and high: what stands for "auto".
 /// Of an animation that begins at night the first frame by day is taken. 1 where white changes nothing of the engine's

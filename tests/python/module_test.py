@@ -143,6 +143,10 @@ class Runs(unittest.TestCase):
             self.assertGreater(run.phases()["photons"], 0)
             self.assertTrue(any("N-SF66" in note for note in run.notes))
 
+    def test_a_picture_that_is_white_says_so(self):
+        with nephroid.run(small().set("white", 1e-6)) as run:
+            self.assertRegex(run.notes[-1], r"^100 % of the picture is above white: white=[0-9.e-]+ shows it$")
+
     def test_spectra(self):
         with nephroid.run(nephroid.Preset("first-light",
                                           {**SMALL, "spectral.relight": True, "stop": {"passes": 2}})) as run:

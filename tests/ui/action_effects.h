@@ -121,6 +121,8 @@ inline void add_select_and_camera(Effects& all) {
   all["Select the next"] = {{}, [](Desk& d) { return d.view_state().selection == selectable(d.preset()).front(); }};
   all["Select the one before"] = {{}, selects_last};
   all["Deselect"] = {select_lamp, [](Desk& d) { return d.view_state().selection == Selection{}; }};
+  all["Delete"] = {select_lamp,
+                   [](Desk& d) { return d.scene().lights.size() + 1 == d.before.preset.scene.lights.size(); }};
   all["Look at the selected"] = {select_lamp,
                                  [](Desk& d) { return d.scene().camera.target == d.scene().lights[0].position; }};
   all["Move"] = uses(Handles::Tool::move);

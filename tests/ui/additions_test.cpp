@@ -140,4 +140,12 @@ TEST_F(AdditionsWindow, AMeshIsAskedForAndAnythingElseRefused) {
   EXPECT_EQ(workbench.preset()->scene.objects.back().name, "thing");
 }
 
+TEST(Additions, AnObjectTakesItsLampWithIt) {
+  preset::Preset preset = preset::parse_preset(test::preset_text, "test");
+  preset.scene.lights.push_back({.type = preset::Light::Type::mesh, .object = "wall"});
+  const preset::Preset without = without_thing(preset, {Selection::Kind::object, 0});
+  EXPECT_TRUE(without.scene.objects.empty());
+  EXPECT_EQ(without.scene.lights.size(), 1u) << "the point light stays";
+}
+
 } // namespace nephroid::ui::additions_test

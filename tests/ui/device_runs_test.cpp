@@ -103,6 +103,21 @@ TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers) {
   EXPECT_EQ(workbench.run().status().generation, run);
 }
 
+TEST_F(EngineTest, APictureThatIsWhiteSaysSo) {
+  DeviceRuns engine({});
+  Workbench workbench(engine);
+  const auto exposure = [&](const char* white) {
+    EXPECT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {"stop.passes=2", white}));
+    EXPECT_TRUE(test::eventually([&] { workbench.update(); },
+                                 [&] { return workbench.run().status().state == job::State::finished; }));
+    workbench.update();
+    return workbench.run().exposure();
+  };
+  EXPECT_THAT(exposure("white=1e-6"),
+              AllOf(HasSubstr("% of the picture is above white: white "), HasSubstr(" shows it")));
+  EXPECT_EQ(exposure("white=1"), "");
+}
+
 TEST(NewScenesTest, EachIsDrawn) {
   for (const engine::Engine* engine : engine::engines()) {
     DeviceRuns runs({});

@@ -107,6 +107,26 @@ TEST_F(Select, EscapeDeselectsAndNeverCancels) {
   EXPECT_TRUE(until(job::State::cancelled));
 }
 
+TEST_F(Select, DeleteTakesItOutOfTheScene) {
+  open();
+  const std::size_t objects = scene().objects.size(), lights = scene().lights.size();
+  select(ball);
+  press(ImGuiKey_Delete);
+  frames(2);
+  EXPECT_EQ(scene().objects.size(), objects - 1);
+  EXPECT_EQ(context().selection(), nothing);
+  press(ImGuiKey_Delete);
+  frames(2);
+  EXPECT_EQ(scene().objects.size(), objects - 1) << "nothing is selected";
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  frames(2);
+  EXPECT_EQ(scene().objects.size(), objects);
+  select(spot);
+  press(ImGuiKey_Delete);
+  frames(2);
+  EXPECT_EQ(scene().lights.size(), lights - 1);
+}
+
 TEST_F(Select, ASelectionThatIsGoneIsNone) {
   open();
   select(spot);

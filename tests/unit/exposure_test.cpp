@@ -39,6 +39,8 @@ TEST(Exposure, APictureOfWhichMuchIsWhiteOrAllIsBlackSaysSo) {
   EXPECT_EQ(note(grey(0.3f, 7, 19)), "");
   EXPECT_EQ(note(grey(0.3f, 7, 20)), "20 % of the picture is above white: --set white=28 shows it");
   EXPECT_EQ(note(grey(5)), "100 % of the picture is above white: --set white=20 shows it");
+  EXPECT_EQ(run::exposure_note({10, 10, grey(5)}, preset, "white {}"),
+            "100 % of the picture is above white: white 20 shows it");
   EXPECT_EQ(note(grey(1e-5f)), "the picture is too dark to be seen: --set white=4e-05 shows it");
   EXPECT_EQ(note(grey(0.7f, 4, 25)), "") << "another white would hardly change it";
   EXPECT_EQ(note(grey(0)), "the picture is black: no light comes to the camera");

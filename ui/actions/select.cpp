@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "Select": what of the scene is selected, and how it is moved.
 #include "ui/actions/table.h"
+#include "ui/state/additions.h"
 #include "ui/view/gizmo_edits.h"
+#include "ui/widgets/rows.h"
 #include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
@@ -27,6 +29,15 @@ void select_next(C c) {
   const std::ptrdiff_t index =
       now == all.end() ? (step > 0 ? 0 : count - 1) : (now - all.begin() + step + count) % count;
   c.push(command::Select{all[static_cast<std::size_t>(index)]});
+}
+
+bool can_delete(C c) {
+  return has_selection(c) && c.selection().kind != Selection::Kind::camera && !row_takes_delete();
+}
+
+void delete_selected(C c) {
+  c.push(command::Edit{"delete " + name_of(*c.preset(), c.selection()), without_thing(*c.preset(), c.selection())});
+  c.push(command::Select{});
 }
 
 template <class Change>
@@ -91,13 +102,14 @@ std::vector<Action> select_actions() {
                  select_next<1>}),
       repeating({"Select the one before", ImGuiKey_Comma, "The other way round", has_things, select_next<-1>}),
       {"Deselect", ImGuiKey_Escape, "Select nothing", has_selection, push<command::Select>},
+      {"Delete", ImGuiKey_Delete, "Remove what is selected", can_delete, delete_selected},
       {"Look at the selected", ImGuiKey_A, "It becomes the camera's target", can_look_at, look_at, why_not_look_at},
       tool_action("Move", ImGuiKey_M, "Arrows that move what is selected", Tool::move),
       tool_action("Turn", ImGuiKey_U, "Circles that turn an object or aim a light", Tool::turn),
       tool_action("Scale", ImGuiKey_S, "Handles that scale an object or an area light", Tool::scale),
       handles_action("Own axes", ImGuiKey_W, "Along its own axes, or along those of the world", &Handles::own_axes),
       handles_action("Snap", ImGuiKey_G,
-                     "In steps: round lengths, 15 degrees, tenths. Ctrl, held in a drag, does the opposite",
+                     "In steps: round lengths, 15 degrees, tenths. Ctrl in a drag does the opposite",
                      &Handles::snap),
       handles_action("Icons and handles", ImGuiKey_H,
                      "Show lights and handles over the picture; without them a click selects nothing", &Handles::shown),

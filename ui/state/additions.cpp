@@ -303,6 +303,23 @@ Addition with_thing(preset::Preset preset, Thing thing) {
   return {std::move(preset), selection};
 }
 
+preset::Preset without_thing(preset::Preset preset, const Selection& selection) {
+  preset::Scene& scene = preset.scene;
+  const auto index = static_cast<std::ptrdiff_t>(selection.index);
+  if (selection.kind == Kind::object) {
+    const std::string name = scene.objects[selection.index].name;
+    scene.objects.erase(scene.objects.begin() + index);
+    if (!name.empty())
+      std::erase_if(scene.lights, [&](const preset::Light& light) {
+        return light.type == preset::Light::Type::mesh && light.object == name;
+      });
+  } else if (selection.kind == Kind::light)
+    scene.lights.erase(scene.lights.begin() + index);
+  else if (selection.kind == Kind::environment)
+    scene.environment.reset();
+  return preset;
+}
+
 preset::Camera camera_on_all(const preset::Preset& preset) {
   preset::Camera camera = preset.scene.camera;
   Bounds all, floors;

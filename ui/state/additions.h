@@ -16,6 +16,10 @@ struct Addition {
 /// The preset must have a scene. Light that is added has the white found anew.
 Addition with_thing(preset::Preset preset, Thing thing);
 
+/// Without an object, which takes the lamps with it that are its surface, a light or the environment; the preset must
+/// have it. It may be named elsewhere.
+preset::Preset without_thing(preset::Preset preset, const Selection& selection);
+
 /// The same scene seen whole by a camera that looks the same way; the preset's own camera where there is nothing to
 /// see.
 preset::Camera camera_on_all(const preset::Preset& preset);

@@ -3,6 +3,7 @@
 
 #include "engine/engine.h"
 #include "preset/read.h"
+#include "run/exposure.h"
 
 #include <fmt/format.h>
 
@@ -184,6 +185,10 @@ void RunInHand::update(const UndoStack* edits) {
   spectrum_ = worker_.spectrum();
   const bool is_new = take_snapshot();
   take_arrival(); // the worker left it there before the run's first snapshot
+  if (is_new) {
+    const bool is_judged = snapshot_->progress.step >= 1 && !snapshot_->stands_in && preset_->white;
+    exposure_ = is_judged ? run::exposure_note(*snapshot_->picture, *preset_, "white {}") : std::string();
+  }
   if (is_new && snapshot_->adoption >= adoption_)
     snapshot_origin_ = {preset_, newest_.plan, newest_.reference, newest_.device};
   report_failure();

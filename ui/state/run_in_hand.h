@@ -110,6 +110,8 @@ public:
   bool snapshot_is_previous() const { return snapshot_ && (lent_ ? !shown_since_start_ : !snapshot_is_current_); }
   /// The spectrum of the watched pixel, as of snapshot() or a little newer; null where there is none.
   const std::shared_ptr<const job::PixelSpectrum>& spectrum() const { return spectrum_; }
+  /// What is wrong with how bright its picture is, after the first pass; else empty.
+  const std::string& exposure() const { return exposure_; }
   /// The name of the run behind snapshot(): "Ball lens: distance of the camera", the preset and the newest edit.
   const std::string& snapshot_name() const { return snapshot_name_; }
   /// The inputs of snapshot(); nothing where that is null.
@@ -167,7 +169,7 @@ private:
   std::shared_ptr<Arrival> arrival_; ///< where the run in hand leaves its facts
   NewRun newest_;                    ///< the newest prepared run, without its job, which the worker has
   RunOrigin snapshot_origin_;
-  std::string name_, snapshot_name_;
+  std::string name_, snapshot_name_, exposure_;
   job::Worker worker_; ///< last: its thread uses the source
 };
 

@@ -98,6 +98,7 @@ ShownPicture shown_picture(const Context& context) {
       shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
     shown.label = comparison.layer;
     if (is_run && !context.run.snapshot()->caption.empty()) shown.label = context.run.snapshot()->caption;
+    if (is_run && shown.label.empty()) shown.label = context.run.exposure();
     if (!is_run || comparison.arrangement != Arrangement::single)
       shown.label = comparing.name() + (shown.label.empty() ? "" : ": " + shown.label);
     if (is_run && context.run.snapshot_is_previous() && !context.playback.playing())

@@ -182,17 +182,24 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
   return gesture;
 }
 
+namespace {
+int delete_taken_at = -2; ///< the newest frame in which a marked row of a focused plot had the key
+}
+
+bool row_takes_delete() { return ImGui::GetFrameCount() - delete_taken_at <= 1; }
+
 RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places) {
   RowGesture gesture;
   if (places.button("Add", "add", "One more in the widest gap; a double click on the plot adds one at the mouse"))
     gesture = {RowGesture::Kind::add, 0, added};
   ImGui::SameLine();
   ImGui::BeginDisabled(!marked);
-  const bool delete_pressed = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows) &&
-                              !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGuiKey_Delete, false);
+  const bool has_key = marked && ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
+  if (has_key) delete_taken_at = ImGui::GetFrameCount();
+  const bool delete_pressed = has_key && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(ImGuiKey_Delete, false);
   if (places.button("Remove", "remove",
                     "The point that was clicked last; Delete, or a right click on a point, does the same") ||
-      (marked && delete_pressed))
+      delete_pressed)
     gesture = {RowGesture::Kind::remove, *marked, {}};
   ImGui::EndDisabled();
   return gesture;

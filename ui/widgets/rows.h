@@ -93,6 +93,9 @@ private:
   bool over_row_ = false;
 };
 
+/// Whether Delete is for a marked row of the focused plot, in this frame or the one before.
+bool row_takes_delete();
+
 /// Buttons that add this row and remove the marked one; Delete removes it too. Their places are noted as "add" and
 /// "remove".
 RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places);
