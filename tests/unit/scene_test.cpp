@@ -191,7 +191,7 @@ TEST(Scene, BallsTouchInAPoint) {
   preset.scene.objects.push_back(preset.scene.objects[0]);
   preset.scene.objects.back().name = "twin";
   const Scene twins = load_scene(preset);
-  EXPECT_THAT(twins.warnings, ElementsAre(HasSubstr("object 'ball' touches object 'twin': a gap of")));
+  EXPECT_THAT(twins.warnings, ElementsAre(HasSubstr("object 'twin' is a copy of object 'ball' in the same place")));
   EXPECT_LT(twins.geometry.ellipsoids[0].half_axes[0].x, 0.5f);
 }
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands where nobody means it is said when a scene is loaded.
+#include "scene/placement.h"
+#include "tests/support/loaded_scenes.h"
+
+namespace nephroid::scene::placement_test {
+
+using test::shape_object;
+using Type = preset::Shape::Type;
+
+preset::Preset table_and_ball() {
+  preset::Preset preset{.source = "p.json"};
+  preset.scene.materials["wood"];
+  preset.scene.materials["glass"].type = preset::Material::Type::dielectric;
+  preset.scene.objects = {shape_object("table", Type::quad, "wood", {.scale = {4, 1, 4}}),
+                          shape_object("ball", Type::sphere, "glass", {.translate = {0, 2, 0}}),
+                          shape_object("block", Type::box, "wood", {.translate = {9, 2, 0}})};
+  preset.scene.camera.position = {0, 5, 9};
+  preset.scene.lights = {{.position = {3, 3, 0}}};
+  return preset;
+}
+
+std::vector<std::string> warnings(const preset::Preset& preset) { return load_scene(preset).warnings; }
+
+TEST(Placement, CopiesAreTold) {
+  preset::Preset preset = table_and_ball();
+  EXPECT_THAT(warnings(preset), IsEmpty());
+  for (std::size_t i : {0, 1}) {
+    preset::Preset twice = preset;
+    twice.scene.objects.push_back(preset.scene.objects[i]);
+    twice.scene.objects.back().name = "again";
+    EXPECT_THAT(warnings(twice), ElementsAre(HasSubstr("object 'again' is a copy of object '" +
+                                                       preset.scene.objects[i].name + "' in the same place")));
+    twice.scene.objects.back().transform.translate[1] += 5;
+    EXPECT_THAT(warnings(twice), IsEmpty());
+  }
+}
+
+TEST(Placement, LampsThatCannotShineAreTold) {
+  const auto of_lamp = [](const preset::Vec3& position, const preset::Vec3& camera = {0, 5, 9}) {
+    preset::Preset preset = table_and_ball();
+    preset.scene.lights[0].position = position;
+    preset.scene.camera.position = camera;
+    return warnings(preset);
+  };
+  EXPECT_THAT(of_lamp({1, 0, 1}), ElementsAre(HasSubstr("scene.lights.0 lies in the surface of object 'table'")));
+  EXPECT_THAT(of_lamp({1, 0.01, 1}), IsEmpty());
+  EXPECT_THAT(of_lamp({9, 2.1, 0}),
+              ElementsAre(HasSubstr("scene.lights.0 is inside of object 'block', which lets no")));
+  EXPECT_THAT(of_lamp({9, 2.1, 0}, {9, 1.9, 0.1}), IsEmpty()) << "the camera is in it, too";
+  EXPECT_THAT(of_lamp({0, 2, 0}), IsEmpty()) << "glass lets it out";
+}
+
+} // namespace nephroid::scene::placement_test
