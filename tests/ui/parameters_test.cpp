@@ -229,6 +229,8 @@ TEST_F(ParametersTest, TheSearchFindsNamesUnitsAndHelp) {
   EXPECT_FALSE(panel().place_of("/scene/camera/position/0"));
   search("no such thing");
   EXPECT_FALSE(panel().place_of(fov));
+  search("fog");
+  EXPECT_TRUE(panel().place_of("environment.extinction")) << "of another engine";
   search("");
   EXPECT_TRUE(panel().place_of(white));
   EXPECT_FALSE(panel().place_of(fov)) << "closed, as it was before the search";

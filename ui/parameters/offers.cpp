@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is looked for and not in the preset: types of objects that have it.
+#include "engine/engine.h"
 #include "ui/parameters/form.h"
 
 #include <fmt/format.h>
@@ -37,6 +38,20 @@ std::vector<Form::Offer> Form::offers() const {
   std::vector<Offer> offers;
   if (!search.empty()) offer_in(preset::outline(draft.value()), draft.value(), "", offers);
   return offers;
+}
+
+std::vector<std::string> Form::of_other_engines() const {
+  std::vector<std::string> lines;
+  for (const engine::Engine* engine : engine::engines()) {
+    const std::string name(name_of(*engine));
+    if (search.empty() || draft.value().value("engine", "") == name) continue;
+    for (const Outline& section : preset::outline({{"engine", name}}))
+      for (const Outline& o :
+           section.object&& section.field.name == name ? section.fields(section.fresh()) : std::vector<Outline>())
+        if (has_words(fmt::format("{} {}", o.field.name, o.field.sentence), search))
+          lines.push_back(fmt::format("{}.{}, of the engine {}: {}", name, o.field.name, name, o.field.sentence));
+  }
+  return lines;
 }
 
 void Form::offer_in(const std::vector<Outline>& fields, const Json& object, const std::string& pointer,

@@ -46,6 +46,11 @@ void ParametersPanel::draw(const Context& context) {
       draw_wrapped(colour::quiet_text, form_.search.empty() ? "Every field is as it is by default."
                                        : offers.empty()     ? "No name, unit or help has these words."
                                                             : "No field of this preset has these words.");
+      if (offers.empty())
+        for (const std::string& line : form_.of_other_engines()) {
+          draw_wrapped(colour::quiet_text, line);
+          form_.note(line.substr(0, line.find(',')));
+        }
       form_.note("nothing");
     }
     draw_offers(context, offers);
