@@ -147,6 +147,7 @@ TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem) {
 }
 
 TEST_F(OpeningTest, LeavesPresetsToTheReader) {
+  EXPECT_THAT(refusal(folder.write("a.step", "ISO-10303-21;")), AllOf(HasSubstr("a CAD model"), HasSubstr("as glTF")));
   EXPECT_NO_THROW(refuse_other_kinds(first));
   EXPECT_NO_THROW(refuse_other_kinds("first-light"));
   EXPECT_NO_THROW(refuse_other_kinds(folder.path().string()));

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/foreign_kind.h"
 #include "base/lower_case.h"
 #include "engine/engine.h"
 #include "image/image.h"
@@ -84,6 +85,14 @@ const KnownKind* known_kind(const std::string& ending) {
   return found == kinds.end() ? nullptr : &*found;
 }
 
+std::string beginning_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes(256, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
 /// Whether the first character other than white space opens a JSON object. An empty file passes: the reader reports it.
 bool may_be_object(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -115,9 +124,12 @@ void refuse_other_kinds(const std::string& name) {
   const std::string ending = lower_case(fs::path(name).extension().string());
   if (const KnownKind* kind = known_kind(ending))
     throw bad_input(name, kind->what, expected, fmt::format(fmt::runtime(kind->remedy), name, engines_for_pictures()));
-  if (ending != ".json" && !may_be_object(name))
-    throw bad_input(name, "is no preset and of no kind that Nephroid knows", std::string(expected) + ", JSON files",
-                    "see `nephroid presets` for those that are shipped");
+  if (ending == ".json" || may_be_object(name)) return;
+  if (const ForeignKind* kind = foreign_kind(name, beginning_of(name)))
+    throw bad_input(name, fmt::format("is {}, which is not read", kind->what), expected, std::string(kind->remedy));
+  throw bad_input(name, "is no preset and of no kind that Nephroid knows",
+                  std::string(expected) + " and scenes of other programs",
+                  "see `nephroid presets` for those that are shipped");
 }
 
 fs::path save_target(const preset::Preset* preset) {
