@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/development.h"
 
+#include "base/parallel.h"
 #include "base/summed_area.h"
 #include "photons/mixture.h"
 #include "tracing/film.h"
@@ -30,24 +31,58 @@ void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
   add(layer.rgb, sum);
 }
 
-/// The pixels where one path would be confetti: in many blocks around them the two paths of a preview differ by more
-/// than light that is lit evenly has. Few blocks do at the edge of a shadow; a fine texture of strong contrast passes
-/// for noise.
-std::vector<bool> where_paths_are_noisy(const Blocks& blocks, const LayerEstimate& coarse) {
-  constexpr int radius = 3;
-  constexpr double noise = 0.2, many_of_them = 0.4;
-  const SummedArea noisy(blocks.across(), blocks.down(), [&](std::size_t i) {
-    double square = 0, light = 0;
-    for (std::size_t c = 3 * i; c < 3 * i + 3 && !coarse.draw.empty(); ++c)
-      square += std::pow(coarse.draw[c], 2), light += coarse.rgb[c];
-    return square / 3 > std::pow(noise * light / 3, 2) ? 1.0 : 0.0;
+float light_of(const std::vector<float>& rgb, std::size_t pixel) {
+  return rgb[3 * pixel] + rgb[3 * pixel + 1] + rgb[3 * pixel + 2];
+}
+
+/// Light that differs by more than that between neighbours is no grain.
+constexpr double step_of_light = 0.25;
+
+/// A layer of single samples without those that met a lamp where their neighbours do not, or missed it: a pixel that is
+/// far from the median of the 5 x 5 about it becomes the median there.
+std::vector<float> without_specks(const std::vector<float>& rgb, int width, int height) {
+  constexpr int radius = 2;
+  std::vector<float> result = rgb;
+  for_ranges(rgb.size() / 3, static_cast<std::size_t>(width), [&](std::size_t, Range row) {
+    std::vector<std::pair<float, std::size_t>> around;
+    for (std::size_t i = row.begin; i < row.end; ++i) {
+      const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+      around.clear();
+      for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
+        for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width - 1); ++u) {
+          const auto pixel = static_cast<std::size_t>(v * width + u);
+          around.emplace_back(light_of(rgb, pixel), pixel);
+        }
+      const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+      std::ranges::nth_element(around, middle);
+      if (std::abs(light_of(rgb, i) - middle->first) > step_of_light * middle->first)
+        std::copy_n(&rgb[3 * middle->second], 3, &result[3 * i]);
+    }
   });
-  std::vector<bool> result(static_cast<std::size_t>(blocks.width) * static_cast<std::size_t>(blocks.height));
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const int block = static_cast<int>(blocks.block_of(i));
-    result[i] = noisy.mean(block % blocks.across(), block / blocks.across(), radius) > many_of_them;
-  }
   return result;
+}
+
+/// [pixel], 0..1: how much of a layer of single samples is confetti. There neighbours differ again and again; at an
+/// edge they do so along a line only.
+std::vector<float> confetti(const std::vector<float>& rgb, int width, int height) {
+  constexpr int radius = 6;
+  constexpr double edge = 0.1, noise = 0.2; // parts of all pairs of neighbours
+  const SummedArea steps(width, height, [&](std::size_t i) {
+    double sum = 0;
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    for (const bool down : {false, true}) {
+      if (down ? y + 1 == height : x + 1 == width) continue;
+      const float a = light_of(rgb, i), b = light_of(rgb, i + static_cast<std::size_t>(down ? width : 1));
+      sum += std::abs(a - b) > step_of_light * std::max(a, b) ? 0.5 : 0.0;
+    }
+    return sum;
+  });
+  std::vector<float> part(rgb.size() / 3);
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    const double mean = steps.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, radius);
+    part[i] = static_cast<float>(std::clamp((mean - edge) / (noise - edge), 0.0, 1.0));
+  }
+  return part;
 }
 
 } // namespace
@@ -156,13 +191,12 @@ void Development::share_work() {
   }
 }
 
-LayerEstimate Development::preview_of(Stage& stage, double noise, std::vector<bool>* noisy) {
+LayerEstimate Development::preview_of(Stage& stage, double noise) {
   const Blocks& blocks = world_.preview.blocks;
   job::Picture picture = black(blocks);
   stage.develop_preview(picture);
   if (picture.layers.empty()) return {};
   LayerEstimate coarse{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
-  if (noisy) *noisy = where_paths_are_noisy(blocks, coarse);
   if (!smoothing_) return between(blocks, coarse);
   timed([&] { pixels = smoothing_->pixels_of(blocks, std::move(coarse), noise); });
   return pixels;
@@ -173,8 +207,7 @@ LayerEstimate Development::layer_of(std::size_t s) {
   const bool is_estimated = !estimate_.empty() && passes_.stages()[s].layer == std::string_view("direct");
   const bool whole = passes_.complete() > 0 || passes_.had_turn(s);
   const bool is_previewed = preview_.has_picture() && !passes_.has_halves(s) && (!whole || smoothing_);
-  std::vector<bool> noisy;
-  LayerEstimate preview = is_previewed ? preview_of(stage, noise_of_paths, &noisy) : LayerEstimate();
+  LayerEstimate preview = is_previewed ? preview_of(stage, noise_of_paths) : LayerEstimate();
   if (is_estimated && !passes_.has_halves(s)) {
     if (preview.rgb.empty()) return {estimate_, {}};
     for (std::size_t i = 0; i < estimate_.size(); ++i)
@@ -187,8 +220,11 @@ LayerEstimate Development::layer_of(std::size_t s) {
   LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
   if (preview.rgb.empty()) timed([&] { mix_with_before(stage.name(), layer); });
   if (!preview.rgb.empty()) { // a single sample of each pixel: it shows all of an evenly lit wall, and little of glass
+    const int width = world_.tables.camera.width, height = world_.tables.camera.height;
+    const std::vector<float> noisy = confetti(layer.rgb, width, height);
+    layer.rgb = without_specks(layer.rgb, width, height);
     for (std::size_t i = 0; i < layer.rgb.size(); ++i)
-      if (world_.pixels.may_show_glass[i / 3] || noisy[i / 3]) layer.rgb[i] = preview.rgb[i];
+      layer.rgb[i] += (world_.pixels.may_show_glass[i / 3] ? 1 : noisy[i / 3]) * (preview.rgb[i] - layer.rgb[i]);
     layer.draw = std::move(preview.draw);
   } else if (smoothing_ && smooths_paths_ && passes_.has_halves(s)) {
     timed([&] {

@@ -51,8 +51,7 @@ private:
   job::Picture black(const Blocks& blocks) const;
   job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
   /// The preview of a stage's layer, smoothed, [pixel][3]. noise: Smoothing::usual_noise's, for its light.
-  /// noisy: becomes the pixels where one path shows little.
-  LayerEstimate preview_of(Stage& stage, double noise, std::vector<bool>* noisy = nullptr);
+  LayerEstimate preview_of(Stage& stage, double noise);
   LayerEstimate layer_of(std::size_t stage);
   LayerEstimate caustics();
   void smooth(LayerEstimate& caustics);
