@@ -29,6 +29,8 @@ std::string empty_hint(const Context& context) {
   if (!context.run.snapshot()) return "Nothing is measured yet";
   if (!context.run.error_history())
     return "This run is not measured: the preset has no reference, and measure.estimate is false";
+  if (context.run.status().state == job::State::finished)
+    return "The run ended without a measurement: its notes say why";
   return "The first measurement is to come";
 }
 
