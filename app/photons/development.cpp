@@ -50,7 +50,8 @@ std::vector<float> without_specks(const std::vector<float>& rgb, int width, int 
       around.clear();
       for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
         for (int u = std::max(x - radius, 0); u <= std::min(x + radius, width - 1); ++u) {
-          const auto pixel = static_cast<std::size_t>(v * width + u);
+          const std::size_t pixel =
+              static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
           around.emplace_back(light_of(rgb, pixel), pixel);
         }
       const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
