@@ -67,7 +67,7 @@ std::vector<float> without_specks(const std::vector<float>& rgb, int width, int 
 /// edge they do so along a line only.
 std::vector<float> confetti(const std::vector<float>& rgb, int width, int height) {
   constexpr int radius = 6;
-  constexpr double edge = 0.1, noise = 0.2; // parts of all pairs of neighbours
+  constexpr double edge = 0.05, noise = 0.12; // parts of all pairs of neighbours
   const SummedArea steps(width, height, [&](std::size_t i) {
     double sum = 0;
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;

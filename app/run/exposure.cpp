@@ -30,6 +30,22 @@ double middle_luminance(const std::vector<float>& rgb) {
   return 0;
 }
 
+/// Evenly chosen pixels, some 16,000 of a large picture: the window asks again and again.
+job::Picture few_pixels(const job::Picture& picture) {
+  const std::size_t step = 1 + picture.rgb.size() / 3 / 16384;
+  const auto few = [&](const std::vector<float>& rgb) {
+    std::vector<float> chosen;
+    for (std::size_t i = 0; i + 2 < rgb.size(); i += 3 * step)
+      chosen.insert(chosen.end(), {rgb[i], rgb[i + 1], rgb[i + 2]});
+    return chosen;
+  };
+  job::Picture chosen;
+  chosen.rgb = few(picture.rgb);
+  for (const job::Layer& layer : picture.layers)
+    if (layer.name == "caustic") chosen.layers.push_back({layer.name, few(layer.rgb)});
+  return chosen;
+}
+
 } // namespace
 
 double white_for(const job::Picture& picture) {
@@ -55,8 +71,10 @@ std::string exposure_note(const job::Picture& picture, const preset::Preset& pre
   }
   const double part = 3 * static_cast<double>(above) / static_cast<double>(picture.rgb.size());
   if (!(most > 0)) return "the picture is black: no light comes to the camera";
-  if (most > blackest && (part < most_above || white_for(picture) < little)) return {};
-  const std::string white = fmt::format("{:.2g}", preset.white.value_or(1) * white_for(picture));
+  if (most > blackest && part < most_above) return {};
+  const double factor = white_for(few_pixels(picture));
+  if (most > blackest && factor < little) return {};
+  const std::string white = fmt::format("{:.2g}", preset.white.value_or(1) * factor);
   return fmt::format("{}: {} shows it",
                      most > blackest ? fmt::format("{:.0f} % of the picture is above white", 100 * part)
                                      : std::string("the picture is too dark to be seen"),

@@ -6,6 +6,7 @@
 #include "run/content.h"
 #include "run/memory.h"
 #include "run/night.h"
+#include "scene/placement.h"
 
 #include <fmt/format.h>
 
@@ -84,6 +85,7 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous, const W
       plan->notes.push_back(fmt::format(
           "frame {} begins by itself: of frame {} there is nothing, or it has other objects", frame, frame - 1));
   }
+  for (std::string& line : scene::hidden_lamps(loaded->scene)) plan->notes.push_back(std::move(line));
   if (const std::string night = night_note(preset); !night.empty()) plan->notes.push_back(night);
   plan->notes.insert(plan->notes.begin(), preset.provenance.notes.begin(), preset.provenance.notes.end());
   return {preset, std::move(loaded), std::move(plan), std::move(before)};

@@ -103,7 +103,7 @@ void move_ellipsoids(Scene& scene, const Object& object, const Motion& move) {
 
 } // namespace
 
-void part_touching(Scene& scene, const std::set<std::pair<std::size_t, std::size_t>>& told) {
+void part_touching(Scene& scene, const std::vector<std::size_t>& first_copies) {
   std::vector<Bounds> bounds;
   for (const Object& object : scene.objects) bounds.push_back(bounds_of(scene, object));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -115,7 +115,7 @@ void part_touching(Scene& scene, const std::set<std::pair<std::size_t, std::size
       if (axis < 0 || !can_coincide(scene.objects[i], bounds[i], scene.objects[j], bounds[j], tolerance)) continue;
       part(scene, scene.objects[i], bounds[i], bounds[j], axis, gap_share * largest);
       bounds[i] = bounds_of(scene, scene.objects[i]);
-      if (told.contains(std::minmax(i, j))) continue;
+      if (!first_copies.empty() && first_copies[i] == first_copies[j]) continue;
       scene.warnings.push_back(
           fmt::format("{} touches {}: a gap of {:.2g} length units is left between them; let them overlap to have none",
                       label(scene, i), label(scene, j), gap_share * largest));

@@ -6,8 +6,7 @@
 
 #include <cstddef>
 #include <optional>
-#include <set>
-#include <utility>
+#include <vector>
 
 namespace nephroid::scene {
 
@@ -20,8 +19,7 @@ std::optional<Scene> move_objects(const Scene& loaded, const preset::Preset& bef
 /// Where two surfaces lie in one place, light would be lost between them. Draws in every dielectric whose bounds end
 /// where another object's begin or end, so that a gap of air is left which single precision can tell (some 1e-6 of the
 /// larger object's coordinates), and says so in scene.warnings. An ellipsoid that touches in a point is left alone.
-///
-/// told: pairs of which that has been said.
-void part_touching(Scene& scene, const std::set<std::pair<std::size_t, std::size_t>>& told = {});
+/// Nothing is said of copies. first_copies: of the scene's objects; empty: there is none.
+void part_touching(Scene& scene, const std::vector<std::size_t>& first_copies = {});
 
 } // namespace nephroid::scene

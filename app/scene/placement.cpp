@@ -4,12 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <vector>
 
 namespace nephroid::scene {
 namespace {
+
+/// Whether a place is inside of a larger mesh takes too long for a note.
+constexpr std::uint32_t most_looked_through = 200'000;
 
 /// The square of the distance from a point to a triangle (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
 double distance2(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -40,52 +44,52 @@ bool holds(const Scene& scene, const Object& object, const glm::dvec3& p) {
 bool is_in_surface(const Scene& scene, const Object& object, const glm::dvec3& p, double tolerance) {
   return std::ranges::any_of(triangles_of(scene, object), [&](const glm::uvec3& t) {
     const auto at = [&](int corner) { return glm::dvec3(scene.geometry.positions[t[corner]]); };
-    return distance2(p, at(0), at(1), at(2)) <= tolerance * tolerance;
+    const glm::dvec3 a = at(0), b = at(1), c = at(2), low = glm::min(a, glm::min(b, c)) - tolerance,
+                     high = glm::max(a, glm::max(b, c)) + tolerance;
+    if (glm::any(glm::lessThan(p, low)) || glm::any(glm::greaterThan(p, high))) return false;
+    return distance2(p, a, b, c) <= tolerance * tolerance;
   });
 }
 
 } // namespace
 
-std::set<std::pair<std::size_t, std::size_t>> copies(const preset::Scene& scene) {
+std::vector<std::size_t> first_copies(const preset::Scene& scene) {
   using Place = std::tuple<std::string, preset::Vec3, preset::Vec3, preset::Vec3>;
   std::map<Place, std::vector<std::size_t>> there;
-  std::set<std::pair<std::size_t, std::size_t>> found;
+  std::vector<std::size_t> first(scene.objects.size());
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const preset::Object& object = scene.objects[i];
-    const auto& [scale, rotate, translate] =
-        std::tie(object.transform.scale, object.transform.rotate_deg, object.transform.translate);
-    std::vector<std::size_t>& others = there[{object.mesh.value_or(""), scale, rotate, translate}];
+    const preset::Transform& at = object.transform;
+    std::vector<std::size_t>& others = there[{object.mesh.value_or(""), at.scale, at.rotate_deg, at.translate}];
     const auto same = std::ranges::find_if(others, [&](std::size_t other) {
       return scene.objects[other].shape == object.shape && scene.objects[other].states == object.states;
     });
-    if (same != others.end())
-      found.emplace(*same, i);
-    else
-      others.push_back(i);
+    first[i] = same != others.end() ? *same : i;
+    if (same == others.end()) others.push_back(i);
   }
-  return found;
+  return first;
 }
 
-void warn_of_hidden_lamps(Scene& scene) {
+std::vector<std::string> hidden_lamps(const Scene& scene) {
+  std::vector<std::string> lines;
   for (std::size_t l = 0; l < scene.lights.size(); ++l) {
     const Light& light = scene.lights[l];
     if (light.type != preset::Light::Type::point && light.type != preset::Light::Type::spot) continue;
     const glm::dvec3 p(light.position);
+    const double tolerance = 1e-6 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       const Object& object = scene.objects[i];
-      const double reach = object.bounds.radius + glm::length(object.bounds.centre), tolerance = 1e-6 * reach;
       if (glm::distance(p, glm::dvec3(object.bounds.centre)) > object.bounds.radius + tolerance) continue;
-      const bool in_surface = is_in_surface(scene, object, p, tolerance);
-      const bool is_opaque = !is_refractive(material_of(scene, object).type);
-      if (!in_surface && !(is_opaque && holds(scene, object, p) && !holds(scene, object, scene.camera.position)))
-        continue;
       const std::string name =
           object.name.empty() ? fmt::format("object {}", i) : fmt::format("object '{}'", object.name);
-      scene.warnings.push_back(in_surface
-                                   ? fmt::format("scene.lights.{} lies in the surface of {}; move it out", l, name)
-                                   : fmt::format("scene.lights.{} is inside of {}, which lets no light out", l, name));
+      if (is_in_surface(scene, object, p, tolerance))
+        lines.push_back(fmt::format("scene.lights.{} lies in the surface of {}; move it out", l, name));
+      else if (!is_refractive(material_of(scene, object).type) && object.triangle_count <= most_looked_through &&
+               holds(scene, object, p) && !holds(scene, object, scene.camera.position))
+        lines.push_back(fmt::format("scene.lights.{} is inside of {}, which lets no light out", l, name));
     }
   }
+  return lines;
 }
 
 } // namespace nephroid::scene

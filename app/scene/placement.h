@@ -5,17 +5,16 @@
 #include "scene/scene.h"
 
 #include <cstddef>
-#include <set>
-#include <utility>
+#include <string>
+#include <vector>
 
 namespace nephroid::scene {
 
-/// Pairs of objects, the first one first, of the same shape or mesh in the same place; of several in one place each
-/// with the first.
-std::set<std::pair<std::size_t, std::size_t>> copies(const preset::Scene& scene);
+/// [object]: the first one of the same shape or mesh in the same place, which may be itself.
+std::vector<std::size_t> first_copies(const preset::Scene& scene);
 
-/// Says in scene.warnings which lamps are in the surface of something, or inside of what lets no light out while the
-/// camera is not. To be called when lights and camera are there.
-void warn_of_hidden_lamps(Scene& scene);
+/// A sentence on each lamp that lies in the surface of something, or is inside of what lets no light out while the
+/// camera is not.
+std::vector<std::string> hidden_lamps(const Scene& scene);
 
 } // namespace nephroid::scene

@@ -194,12 +194,13 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   for (const auto count : {&Object::triangle_count, &Object::ellipsoid_count})
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
       scene.object_of_primitive.insert(scene.object_of_primitive.end(), scene.objects[i].*count, i);
-  const auto told = copies(preset.scene);
-  for (const auto& [first, second] : told)
-    scene.warnings.push_back(fmt::format("{} is a copy of {} in the same place; remove one of them",
-                                         label_of(preset.scene.objects[second], second),
-                                         label_of(preset.scene.objects[first], first)));
-  part_touching(scene, told);
+  const std::vector<std::size_t> first = first_copies(preset.scene);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (first[i] != i)
+      scene.warnings.push_back(fmt::format("{} is a copy of {} in the same place; remove one of them",
+                                           label_of(preset.scene.objects[i], i),
+                                           label_of(preset.scene.objects[first[i]], first[i])));
+  part_touching(scene, first);
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
     add_light(preset.scene.lights[i], finder, where / "lights" / i, scene);
   if (preset.scene.environment) {
@@ -209,7 +210,6 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
   }
   warn_of_faint_lights(scene);
   scene.camera = make_camera(preset.scene.camera, scene);
-  warn_of_hidden_lamps(scene);
   return scene;
 }
 

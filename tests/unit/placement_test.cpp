@@ -31,6 +31,10 @@ TEST(Placement, CopiesAreTold) {
     twice.scene.objects.back().name = "again";
     EXPECT_THAT(warnings(twice), ElementsAre(HasSubstr("object 'again' is a copy of object '" +
                                                        preset.scene.objects[i].name + "' in the same place")));
+    preset::Preset thrice = twice;
+    thrice.scene.objects.push_back(thrice.scene.objects.back());
+    thrice.scene.objects.back().name = "and again";
+    EXPECT_THAT(warnings(thrice), ElementsAre(HasSubstr("'again' is a copy"), HasSubstr("'and again' is a copy")));
     twice.scene.objects.back().transform.translate[1] += 5;
     EXPECT_THAT(warnings(twice), IsEmpty());
   }
@@ -41,7 +45,7 @@ TEST(Placement, LampsThatCannotShineAreTold) {
     preset::Preset preset = table_and_ball();
     preset.scene.lights[0].position = position;
     preset.scene.camera.position = camera;
-    return warnings(preset);
+    return hidden_lamps(load_scene(preset));
   };
   EXPECT_THAT(of_lamp({1, 0, 1}), ElementsAre(HasSubstr("scene.lights.0 lies in the surface of object 'table'")));
   EXPECT_THAT(of_lamp({1, 0.01, 1}), IsEmpty());

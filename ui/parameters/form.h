@@ -45,7 +45,8 @@ public:
     std::function<Json()> value; ///< asked for where it is put
   };
   std::vector<Offer> offers() const;
-  /// A line for each field of other engines that has the words: "environment.extinction, of the engine environment:
+  /// A line for each field of the sections of other engines that has the words: "environment.extinction, of the engine
+  /// environment:
   /// ...".
   std::vector<std::string> of_other_engines() const;
 

@@ -44,7 +44,7 @@ void ParametersPanel::draw(const Context& context) {
     const std::vector<Form::Offer> offers = form_.offers();
     if (!form_.finds_any()) {
       draw_wrapped(colour::quiet_text, form_.search.empty() ? "Every field is as it is by default."
-                                       : offers.empty()     ? "No name, unit or help has these words."
+                                       : offers.empty()     ? "No name, unit or help of this preset has these words."
                                                             : "No field of this preset has these words.");
       if (offers.empty())
         for (const std::string& line : form_.of_other_engines()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the menu "Add" and a dropped mesh put into a scene: where the camera looks, on the ground, beside what is there,
-// with the material that it needs. Nothing of it has to be mended first.
+// What the menu "Add" and a dropped mesh put into a scene, and "Delete" takes out: where the camera looks, on the
+// ground, beside what is there, with the material that it needs. Nothing of it has to be mended first.
 #pragma once
 #include "scene/scene.h"
 #include "ui/state/selection.h"

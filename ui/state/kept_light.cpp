@@ -15,48 +15,58 @@ constexpr double most_passes = 8;
 /// It is left out where it has less than this part.
 constexpr double least_part = 1.0 / 16;
 
-/// By the camera alone, if at all.
-bool differs_by_camera(preset::Preset a, const preset::Preset& b) {
+/// By the camera alone, if at all, and a lens blurs neither. What glass or water around a camera takes hangs on the
+/// way.
+bool can_lend(preset::Preset a, const scene::Camera& camera_a, const preset::Preset& b, const scene::Camera& camera_b) {
+  if (a.scene.camera.aperture > 0 || b.scene.camera.aperture > 0) return false;
+  if (!camera_a.inside.empty() || !camera_b.inside.empty()) return false;
+  if (camera_a.width != camera_b.width || camera_a.height != camera_b.height) return false;
   a.scene.camera = b.scene.camera;
-  return a == b && b.scene.camera.aperture == 0;
+  return a == b;
 }
 
 } // namespace
 
 struct KeptLight::Shown {
   preset::Preset preset;
-  photons::SeenPlaces seen;                    ///< by its camera
+  scene::Camera camera;
   std::shared_ptr<const job::Picture> picture; ///< null before the first pass is complete
   double passes = 0;                           ///< those that the picture is worth
-  std::shared_ptr<const Shown> before;         ///< what it begins with; null: nothing
+  bool lends = true;                           ///< its pictures are those of `preset` and `camera`
+  std::shared_ptr<const Shown> before;         ///< what stands in while there is no picture; null: nothing
 };
 
 class KeptLight::Keeper final : public job::Job, public job::SpectrumSource {
 public:
-  Keeper(std::unique_ptr<job::Job> job, std::shared_ptr<Shown> shown, const scene::Mesh& geometry)
+  /// before: what the pictures begin with; null: nothing.
+  Keeper(std::unique_ptr<job::Job> job, std::shared_ptr<Shown> shown, std::shared_ptr<const Shown> before,
+         const run::LoadedScene& loaded)
       : job_(std::move(job)), shown_(std::move(shown)) {
-    if (!shown_->before) return;
-    const Shown& before = *shown_->before;
-    taps_ = photons::taps_before(shown_->seen, geometry, before.seen);
+    if (!before) return;
+    const photons::SeenPlaces now = photons::matt_places(loaded.scene, *loaded.bvh, shown_->camera),
+                              then = photons::matt_places(loaded.scene, *loaded.bvh, before->camera);
+    before_ = before->picture;
+    taps_ = photons::taps_before(now, loaded.scene.geometry, then);
     for (std::size_t i = 0; i < taps_.size(); ++i) {
       const auto nearest =
           static_cast<std::size_t>(std::ranges::max_element(taps_[i].weights) - taps_[i].weights.begin());
       // A pixel that is smaller than those before shows what they do not tell.
-      const double finer = shown_->seen.places[i].reach / before.seen.places[taps_[i].pixels[nearest]].reach;
+      const double finer = now.places[i].reach / then.places[taps_[i].pixels[nearest]].reach;
       passes_.push_back(
-          taps_[i].weights[nearest] > 0 ? std::min(before.passes, most_passes) * std::min(finer * finer, 1.0) : 0);
+          taps_[i].weights[nearest] > 0 ? std::min(before->passes, most_passes) * std::min(finer * finer, 1.0) : 0);
     }
+    if (std::ranges::all_of(passes_, [](double passes) { return !(passes > 0); })) before_.reset();
   }
 
   job::Snapshot snapshot() override {
     job::Snapshot snapshot = job_->snapshot();
     if (!snapshot.picture || snapshot.in_view) return snapshot;
     const auto own = static_cast<double>(snapshot.progress.step);
-    if (shown_->before && most_passes > least_part * (most_passes + own)) {
+    if (before_ && !job_->finished() && most_passes > least_part * (most_passes + own)) {
       snapshot.in_view = with_light_before(*snapshot.picture, own);
       if (snapshot.caption.empty()) snapshot.caption = "with light from before the camera moved";
     }
-    if (own >= 1) {
+    if (own >= 1 && shown_->lends) {
       shown_->picture = snapshot.in_view ? snapshot.in_view : snapshot.picture;
       shown_->passes = own;
     }
@@ -73,9 +83,10 @@ public:
   void load(ByteSource& from) override { job_->load(from); }
   bool adopt(const preset::Preset& preset) override {
     if (!job_->adopt(preset)) return false;
-    shown_->preset = preset; // its light is another one
+    shown_->lends = false; // it may have another light, another camera and other places now
     shown_->before.reset();
     shown_->picture.reset();
+    before_.reset();
     return true;
   }
   std::shared_ptr<const job::PixelSpectrum> spectrum(const std::array<int, 2>& pixel) override {
@@ -85,7 +96,7 @@ public:
 
 private:
   std::shared_ptr<const job::Picture> with_light_before(const job::Picture& own, double own_passes) const {
-    const job::Picture& before = *shown_->before->picture;
+    const job::Picture& before = *before_;
     auto picture = std::make_shared<job::Picture>(own);
     const auto mix = [&](const std::vector<float>& from, std::vector<float>& into) {
       for (std::size_t i = 0; i < taps_.size(); ++i) {
@@ -109,21 +120,24 @@ private:
 
   std::unique_ptr<job::Job> job_;
   std::shared_ptr<Shown> shown_;
-  std::vector<photons::Taps> taps_; ///< [pixel]; empty: there is no light before
-  std::vector<double> passes_;      ///< [pixel]: those that the light before counts as
+  std::shared_ptr<const job::Picture> before_; ///< null: there is no light before
+  std::vector<photons::Taps> taps_;            ///< [pixel]
+  std::vector<double> passes_;                 ///< [pixel]: those that the light before counts as
 };
 
 std::unique_ptr<job::Job> KeptLight::kept_by(std::unique_ptr<job::Job> job, const run::Prepared& prepared) {
   const std::shared_ptr<Shown> last = std::exchange(last_, nullptr);
   if (!prepared.plan->mixes_frames) return job;
-  const scene::Scene& scene = prepared.loaded->scene;
-  last_ = std::make_shared<Shown>(
-      Shown{prepared.preset, photons::matt_places(scene, *prepared.loaded->bvh, scene.camera), nullptr, 0, nullptr});
+  last_ = std::make_shared<Shown>();
+  last_->preset = prepared.preset;
+  last_->camera = prepared.loaded->scene.camera;
+  if (last && last->picture) last->before.reset(); // no chain of all pictures
   const bool begins_anew = last && last->preset == prepared.preset;
-  const std::shared_ptr<const Shown> before = !last || last->picture ? last : last->before;
-  if (before && !begins_anew && differs_by_camera(before->preset, prepared.preset) && has_parts_of(scene, before->seen))
-    last_->before = before;
-  return std::make_unique<Keeper>(std::move(job), last_, scene.geometry);
+  std::shared_ptr<const Shown> before =
+      last && last->lends && !begins_anew ? last->picture ? last : last->before : nullptr;
+  if (before && !can_lend(before->preset, before->camera, last_->preset, last_->camera)) before.reset();
+  last_->before = before;
+  return std::make_unique<Keeper>(std::move(job), last_, std::move(before), *prepared.loaded);
 }
 
 } // namespace nephroid::ui

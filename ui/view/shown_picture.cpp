@@ -97,7 +97,8 @@ ShownPicture shown_picture(const Context& context) {
     if (const std::string why = comparing.why_no_picture(); !why.empty())
       shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
     shown.label = comparison.layer;
-    if (is_run && !context.run.snapshot()->caption.empty()) shown.label = context.run.snapshot()->caption;
+    if (const std::string& caption = context.run.snapshot()->caption; is_run && !caption.empty())
+      shown.label = shown.label.empty() ? caption : shown.label + ": " + caption;
     if (is_run && shown.label.empty()) shown.label = context.run.exposure();
     if (!is_run || comparison.arrangement != Arrangement::single)
       shown.label = comparing.name() + (shown.label.empty() ? "" : ": " + shown.label);

@@ -183,10 +183,11 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
 }
 
 namespace {
+/// Of one window: there is no other.
 int delete_taken_at = -2; ///< the newest frame in which a marked row of a focused plot had the key
-}
+} // namespace
 
-bool row_takes_delete() { return ImGui::GetFrameCount() - delete_taken_at <= 1; }
+bool row_takes_delete() { return std::abs(ImGui::GetFrameCount() - delete_taken_at) <= 1; }
 
 RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places) {
   RowGesture gesture;

@@ -4,6 +4,7 @@
 #include "formats/import/emitter.h"
 #include "scene/scene.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
@@ -12,21 +13,22 @@
 namespace nephroid::formats {
 namespace {
 
-/// A mesh whose vertices have moved along their normals, by `distance` as `to_preset` has them.
-scene::Mesh swollen(scene::Mesh mesh, const glm::dmat3& to_preset, double distance) {
-  const double turn = glm::determinant(to_preset) < 0 ? -1 : 1;
-  const auto at = [&](std::uint32_t vertex) { return to_preset * glm::dvec3(mesh.positions[vertex]); };
+/// A mesh whose vertices have moved along their normals.
+scene::Mesh swollen(scene::Mesh mesh, double distance) {
   std::vector<glm::dvec3> normals(mesh.positions.size());
   for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 area = turn * glm::cross(at(t.y) - at(t.x), at(t.z) - at(t.x));
+    const auto at = [&](int corner) { return glm::dvec3(mesh.positions[t[corner]]); };
+    const glm::dvec3 area = glm::cross(at(1) - at(0), at(2) - at(0));
     for (int corner = 0; corner < 3; ++corner) normals[t[corner]] += area;
   }
-  const glm::dmat3 back = glm::inverse(to_preset);
   for (std::size_t i = 0; i < normals.size(); ++i)
     if (const double length = glm::length(normals[i]); length > 0)
-      mesh.positions[i] += glm::vec3(back * (distance / length * normals[i]));
+      mesh.positions[i] += glm::vec3(distance / length * normals[i]);
   return mesh;
 }
+
+/// How much longer lengths become, on average.
+double scale_of(const glm::dmat4& to_world) { return std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world)))); }
 
 } // namespace
 
@@ -35,7 +37,7 @@ DescribedShape behind(const DescribedShape& shape, const glm::dmat4& to_preset, 
   const glm::dmat4 to_world = to_preset * shape.to_world;
   const double outwards = shape.inside_out ? distance : -distance;
   if (shape.mesh.empty()) {
-    back.radius += outwards / std::cbrt(std::abs(glm::determinant(glm::dmat3(to_world))));
+    back.radius += outwards / scale_of(to_world);
     return back;
   }
   const scene::Mesh& mesh = from.meshes.at(shape.mesh);
@@ -45,12 +47,15 @@ DescribedShape behind(const DescribedShape& shape, const glm::dmat4& to_preset, 
     return back;
   }
   back.states.clear();
-  back.mesh = from.own_mesh(shape.name, swollen(mesh, glm::dmat3(to_world), outwards));
+  const double own = outwards / scale_of(to_world); // instances share it
+  std::string& known = from.swollen[fmt::format("{} {:.3g}", shape.mesh, own)];
+  if (known.empty()) known = from.own_mesh(shape.name, swollen(mesh, own));
+  back.mesh = known;
   return back;
 }
 
 bool shows_back(const DescribedShape& shape, const glm::dmat4& to_preset, std::span<const glm::dvec3> places,
-                const Description& from) {
+                Description& from) {
   const glm::dmat4 to_world = to_preset * shape.to_world;
   scene::Bounds box;
   bool has_front_outside = !shape.inside_out;
@@ -62,9 +67,10 @@ bool shows_back(const DescribedShape& shape, const glm::dmat4& to_preset, std::s
     }
   } else {
     const scene::Mesh& mesh = from.meshes.at(shape.mesh);
-    const scene::MeshReport report = inspect(mesh);
-    if (!report.closed()) return true;
-    if (report.signed_volume < 0) has_front_outside = !has_front_outside;
+    const auto [known, is_new] = from.reports.try_emplace(shape.mesh);
+    if (is_new) known->second = inspect(mesh);
+    if (!known->second.closed()) return true;
+    if (known->second.signed_volume < 0) has_front_outside = !has_front_outside;
     for (const glm::vec3& p : mesh.positions) {
       const glm::dvec3 place(to_world * glm::dvec4(glm::dvec3(p), 1));
       box = scene::enclosing(box, {place, place});

@@ -14,6 +14,6 @@ DescribedShape behind(const DescribedShape& shape, const glm::dmat4& to_preset, 
 /// Whether the back of a shape may be seen or lit from one of these places in the preset's coordinates. Those of what
 /// is closed and has its front outside are inside.
 bool shows_back(const DescribedShape& shape, const glm::dmat4& to_preset, std::span<const glm::dvec3> places,
-                const Description& from);
+                Description& from);
 
 } // namespace nephroid::formats

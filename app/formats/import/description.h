@@ -40,6 +40,7 @@ struct DescribedShape {
   std::optional<DescribedColour> glow; ///< radiance of its outside
   std::optional<double> glow_power;    ///< of all of it, in the file's unit, times the luminance of its glow
   bool glows_on_both_sides = false;    ///< only where it is flat
+  bool glows_by_mean = false;          ///< of a picture of its light: details shine, which light no scene
   std::optional<std::string> back;     ///< the material of its back, where that has another
 };
 
@@ -97,6 +98,8 @@ struct Description {
   bool fits_white = false; ///< the file has no radiance that is white: one is made of its lights
   std::optional<DescribedCamera> camera;
   std::map<std::string, scene::Mesh> meshes;               ///< by the names of their files
+  std::map<std::string, std::string> swollen;              ///< keys of backs of curved meshes (backs.cpp)
+  std::map<std::string, scene::MeshReport> reports;        ///< of meshes by their keys, as far as they were asked for
   std::map<std::filesystem::path, std::string> mesh_files; ///< keys by the files that they were read from
   TakenNames file_counts;                                  ///< names that own_file() was asked for
   std::map<std::string, std::string> files; ///< dispersion files and pictures by their names, which materials have

@@ -198,12 +198,17 @@ private:
     if (rgb == glm::dvec3(0) || !info.has("index")) return rgb;
     const GltfValue texture = info.item("index", root_, "textures");
     std::optional<glm::dvec3> mean;
-    if (texture.has("source"))
-      with_file_of(texture.index("source", root_, "images"),
-                   [&](const fs::path& file) { mean = mean_of({.file = file.string()}, true); });
-    d_.note(fmt::format("material '{}': the picture of its light {}", name,
-                        mean ? "is taken by its mean" : "cannot be read and is left out"));
-    return rgb * mean.value_or(glm::dvec3(1));
+    if (texture.has("source")) {
+      const std::size_t image = texture.index("source", root_, "images");
+      const auto [known, is_new] = means_.try_emplace(image);
+      if (is_new)
+        with_file_of(image, [&](const fs::path& file) { known->second = mean_of({.file = file.string()}, true); });
+      mean = known->second;
+    }
+    d_.note(fmt::format("material '{}': {}", name,
+                        mean ? "the picture of its light is taken by its mean"
+                             : "it does not shine here: the picture of its light cannot be read"));
+    return rgb * mean.value_or(glm::dvec3(0));
   }
 
   /// Whether some of a primitive is there, by its alpha.
@@ -280,6 +285,7 @@ private:
         const GltfValue surface = root_.item("materials", primitives[p].index("material", root_, "materials"));
         const glm::dvec3 rgb = glow_of(surface, shape.material);
         if (rgb != glm::dvec3(0)) shape.glow.emplace().rgb = rgb / most_lumens;
+        shape.glows_by_mean = surface.has("emissiveTexture");
         shape.glows_on_both_sides = surface.truth("doubleSided", false);
       }
       for (const glm::dmat4& instance : places) {
@@ -442,6 +448,7 @@ private:
   Description& d_;
   std::map<std::size_t, glm::dmat4> worlds_; ///< from each node of the scene
   std::map<std::size_t, Alpha> alphas_;      ///< of pictures
+  std::map<std::size_t, std::optional<glm::dvec3>> means_;
   /// Of meshes, by mesh, primitive and skin.
   std::map<std::tuple<std::size_t, std::size_t, std::size_t>, std::vector<std::string>> keys_;
   std::map<std::size_t, WeightKeys> weights_; ///< by the node

@@ -79,7 +79,7 @@ public:
       aim(*from_.camera);
     else
       look_at_all();
-    if (made_.scene.lights.empty() && !made_.scene.environment) light_all();
+    if (made_.scene.lights.size() == details_ && !made_.scene.environment) light_all();
     for (const DescribedShape& shape : from_.shapes) cover_back(shape);
     expose();
     dim();
@@ -278,6 +278,7 @@ private:
       return from_.note(shape.where, fmt::format("there are more than {} lights: it does not shine", most_lights));
     light.type = preset::Light::Type::mesh;
     light.object = made_.scene.objects.back().name;
+    if (shape.glows_by_mean) ++details_;
     made_.scene.lights.push_back(std::move(light));
   }
 
@@ -415,6 +416,7 @@ private:
   std::string black_;                        ///< material of what shines; empty: none yet
   std::map<std::string, std::string> plain_; ///< materials without a texture, by those with it
   scene::Bounds bounds_;
+  std::size_t details_ = 0;               ///< lights that are pictures' means
   std::set<std::string> used_, textured_; ///< keys of the objects' meshes
 };
 
