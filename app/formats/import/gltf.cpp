@@ -196,6 +196,11 @@ private:
     const glm::dvec3 rgb(emission[0], emission[1], emission[2]);
     const GltfValue info = material.object("emissiveTexture");
     if (rgb == glm::dvec3(0) || !info.has("index")) return rgb;
+    if (root_.object("asset").text("generator") == "Nephroid") {
+      d_.note(fmt::format("material '{}': the caustics that the export has drawn are left out: they are computed here",
+                          name));
+      return glm::dvec3(0);
+    }
     const GltfValue texture = info.item("index", root_, "textures");
     std::optional<glm::dvec3> mean;
     if (texture.has("source")) {
