@@ -205,10 +205,10 @@ private:
     std::optional<glm::dvec3> mean;
     if (texture.has("source")) {
       const std::size_t image = texture.index("source", root_, "images");
-      const auto [known, is_new] = means_.try_emplace(image);
-      if (is_new)
-        with_file_of(image, [&](const fs::path& file) { known->second = mean_of({.file = file.string()}, true); });
-      mean = known->second;
+      const bool is_new = !means_.contains(image);
+      std::optional<glm::dvec3>& known = means_[image];
+      if (is_new) with_file_of(image, [&](const fs::path& file) { known = mean_of({.file = file.string()}, true); });
+      mean = known;
     }
     d_.note(fmt::format("material '{}': {}", name,
                         mean ? "the picture of its light is taken by its mean"
