@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string_view>
 
@@ -31,21 +32,43 @@ void add(const char* name, const LayerEstimate& layer, job::Picture& picture) {
   add(layer.rgb, sum);
 }
 
+/// Neighbours in a layer of single samples that differ by a larger part are no grain.
+constexpr float step_of_light = 0.25f;
+
 float light_of(const std::vector<float>& rgb, std::size_t pixel) {
   return rgb[3 * pixel] + rgb[3 * pixel + 1] + rgb[3 * pixel + 2];
 }
 
-/// Light that differs by more than that between neighbours is no grain.
-constexpr double step_of_light = 0.25;
+/// [pixel] of a layer: from how many of the four beside it its light differs by more than grain.
+std::vector<std::uint8_t> steps_beside(const std::vector<float>& rgb, int width, int height) {
+  std::vector<std::uint8_t> steps(rgb.size() / 3);
+  for_ranges(steps.size(), static_cast<std::size_t>(width), [&](std::size_t, Range row) {
+    for (std::size_t i = row.begin; i < row.end; ++i) {
+      const auto look = [&](bool is_there, std::size_t other) {
+        if (!is_there) return;
+        const float a = light_of(rgb, i), b = light_of(rgb, other);
+        if (std::abs(a - b) > step_of_light * std::max(a, b)) ++steps[i];
+      };
+      const auto down = static_cast<std::size_t>(width);
+      look(i > row.begin, i - 1);
+      look(i + 1 < row.end, i + 1);
+      look(row.begin > 0, i - down);
+      look(i + down < down * static_cast<std::size_t>(height), i + down);
+    }
+  });
+  return steps;
+}
 
-/// A layer of single samples without those that met a lamp where their neighbours do not, or missed it: a pixel that is
-/// far from the median of the 5 x 5 about it becomes the median there.
-std::vector<float> without_specks(const std::vector<float>& rgb, int width, int height) {
+/// A layer of single samples without those that met a lamp where their neighbours do not, or missed it (salt-and-pepper
+/// noise): where two steps are beside a pixel that is far from the median of the 5 x 5 about it, it becomes that.
+std::vector<float> without_specks(const std::vector<float>& rgb, const std::vector<std::uint8_t>& steps, int width,
+                                  int height) {
   constexpr int radius = 2;
   std::vector<float> result = rgb;
-  for_ranges(rgb.size() / 3, static_cast<std::size_t>(width), [&](std::size_t, Range row) {
+  for_ranges(steps.size(), static_cast<std::size_t>(width), [&](std::size_t, Range row) {
     std::vector<std::pair<float, std::size_t>> around;
     for (std::size_t i = row.begin; i < row.end; ++i) {
+      if (steps[i] < 2) continue; // as nearly everywhere: the median takes long
       const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
       around.clear();
       for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
@@ -65,22 +88,13 @@ std::vector<float> without_specks(const std::vector<float>& rgb, int width, int 
 
 /// [pixel], 0..1: how much of a layer of single samples is confetti. There neighbours differ again and again; at an
 /// edge they do so along a line only.
-std::vector<float> confetti(const std::vector<float>& rgb, int width, int height) {
+std::vector<float> confetti(const std::vector<std::uint8_t>& steps, int width, int height) {
   constexpr int radius = 6;
   constexpr double edge = 0.05, noise = 0.12; // parts of all pairs of neighbours
-  const SummedArea steps(width, height, [&](std::size_t i) {
-    double sum = 0;
-    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    for (const bool down : {false, true}) {
-      if (down ? y + 1 == height : x + 1 == width) continue;
-      const float a = light_of(rgb, i), b = light_of(rgb, i + static_cast<std::size_t>(down ? width : 1));
-      sum += std::abs(a - b) > step_of_light * std::max(a, b) ? 0.5 : 0.0;
-    }
-    return sum;
-  });
-  std::vector<float> part(rgb.size() / 3);
+  const SummedArea pairs(width, height, [&](std::size_t i) { return steps[i] / 4.0; });
+  std::vector<float> part(steps.size());
   for (std::size_t i = 0; i < part.size(); ++i) {
-    const double mean = steps.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, radius);
+    const double mean = pairs.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, radius);
     part[i] = static_cast<float>(std::clamp((mean - edge) / (noise - edge), 0.0, 1.0));
   }
   return part;
@@ -222,8 +236,9 @@ LayerEstimate Development::layer_of(std::size_t s) {
   if (preview.rgb.empty()) timed([&] { mix_with_before(stage.name(), layer); });
   if (!preview.rgb.empty()) { // a single sample of each pixel: it shows all of an evenly lit wall, and little of glass
     const int width = world_.tables.camera.width, height = world_.tables.camera.height;
-    const std::vector<float> noisy = confetti(layer.rgb, width, height);
-    layer.rgb = without_specks(layer.rgb, width, height);
+    const std::vector<std::uint8_t> steps = steps_beside(layer.rgb, width, height);
+    const std::vector<float> noisy = confetti(steps, width, height);
+    layer.rgb = without_specks(layer.rgb, steps, width, height);
     for (std::size_t i = 0; i < layer.rgb.size(); ++i)
       layer.rgb[i] += (world_.pixels.may_show_glass[i / 3] ? 1 : noisy[i / 3]) * (preview.rgb[i] - layer.rgb[i]);
     layer.draw = std::move(preview.draw);
