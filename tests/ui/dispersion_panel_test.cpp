@@ -69,8 +69,11 @@ TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved) {
   click("add");
   ASSERT_THAT(points(), SizeIs(7)) << "in the widest gap";
   EXPECT_EQ(points()[5][0], 715);
+  workbench.apply({command::Select{{Selection::Kind::object, 0}}});
+  const std::size_t objects = workbench.preset()->scene.objects.size();
   press(ImGuiKey_Delete);
   EXPECT_THAT(points(), SizeIs(6)) << "the one that was added last";
+  EXPECT_EQ(workbench.preset()->scene.objects.size(), objects) << "the key is the point's, not the selection's";
   click(panel().plot().to_screen(points()[2]), 1);
   EXPECT_EQ(points(), five) << "a right click";
   for (int i = 0; i < 5; ++i) {

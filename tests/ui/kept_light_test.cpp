@@ -2,6 +2,7 @@
 // What the window shows while the camera moves, on a real device: the light that has landed, on what is matt and was
 // seen before, until the run has its own.
 #include "fake_job.h"
+#include "spectral/settings.h"
 #include "ui/state/device_runs.h"
 
 namespace nephroid::ui::kept_light_test {
@@ -70,6 +71,18 @@ TEST_F(KeptLightTest, StaysWhileTheCameraMovesAndIsOfNoOtherScene) {
   EXPECT_EQ(run(preset, runs, 1).in_view, nullptr) << "another light";
   run(preset, runs);
   EXPECT_EQ(run(preset, runs, 1).in_view, nullptr) << "begun anew";
+}
+
+// A job that has taken on another light shows that, and lends nothing to the run of another camera.
+TEST_F(KeptLightTest, IsNotOfAnotherLightThatAJobTookOn) {
+  preset::Preset preset = preset::parse_preset(scene, "p.json");
+  spectral::settings(preset).relight = true;
+  run(preset, runs);
+  preset.scene.lights[0].power_w *= 2;
+  ASSERT_TRUE(job_->adopt(preset));
+  job_->snapshot();
+  preset.scene.camera.position = {0.3, 3, 4};
+  EXPECT_EQ(run(preset, runs, 1).in_view, nullptr);
 }
 
 } // namespace nephroid::ui::kept_light_test

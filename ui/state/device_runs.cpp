@@ -70,7 +70,7 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   plan->notes.insert(plan->notes.end(), notes.begin(), notes.end());
   SceneFacts facts;
   if (take_facts_) facts = take_facts_(preset, run_.prepared->loaded);
-  return {kept_light_.kept_by(std::move(run_.job), *run_.prepared),
+  return {kept_light_.wrap(std::move(run_.job), *run_.prepared),
           std::move(plan),
           run_.reference,
           std::move(facts),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/kept_light.h"
 
+#include "base/parallel.h"
 #include "photons/seen_places.h"
 
 #include <algorithm>
@@ -99,16 +100,18 @@ private:
     const job::Picture& before = *before_;
     auto picture = std::make_shared<job::Picture>(own);
     const auto mix = [&](const std::vector<float>& from, std::vector<float>& into) {
-      for (std::size_t i = 0; i < taps_.size(); ++i) {
-        if (!(passes_[i] > 0)) continue;
-        const auto part = static_cast<float>(passes_[i] / (passes_[i] + own_passes));
-        for (std::size_t c = 0; c < 3; ++c) {
-          float there = 0;
-          for (std::size_t tap = 0; tap < taps_[i].weights.size(); ++tap)
-            there += taps_[i].weights[tap] * from[std::size_t{3} * taps_[i].pixels[tap] + c];
-          into[3 * i + c] += part * (there - into[3 * i + c]);
+      for_ranges(taps_.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          if (!(passes_[i] > 0)) continue;
+          const auto part = static_cast<float>(passes_[i] / (passes_[i] + own_passes));
+          for (std::size_t c = 0; c < 3; ++c) {
+            float there = 0;
+            for (std::size_t tap = 0; tap < taps_[i].weights.size(); ++tap)
+              there += taps_[i].weights[tap] * from[std::size_t{3} * taps_[i].pixels[tap] + c];
+            into[3 * i + c] += part * (there - into[3 * i + c]);
+          }
         }
-      }
+      });
     };
     mix(before.rgb, picture->rgb);
     for (job::Layer& layer : picture->layers)
@@ -125,7 +128,7 @@ private:
   std::vector<double> passes_;                 ///< [pixel]: those that the light before counts as
 };
 
-std::unique_ptr<job::Job> KeptLight::kept_by(std::unique_ptr<job::Job> job, const run::Prepared& prepared) {
+std::unique_ptr<job::Job> KeptLight::wrap(std::unique_ptr<job::Job> job, const run::Prepared& prepared) {
   const std::shared_ptr<Shown> last = std::exchange(last_, nullptr);
   if (!prepared.plan->mixes_frames) return job;
   last_ = std::make_shared<Shown>();

@@ -13,7 +13,7 @@ public:
   /// The job as it is, but that its snapshots also have a picture with the light of the run before (Snapshot::in_view),
   /// where that differs by the camera alone. What the job shows when it is finished, what it measures and its bits
   /// stay its own. prepared: what it was made of. To be called for each job, on the thread that the jobs work on.
-  std::unique_ptr<job::Job> kept_by(std::unique_ptr<job::Job> job, const run::Prepared& prepared);
+  std::unique_ptr<job::Job> wrap(std::unique_ptr<job::Job> job, const run::Prepared& prepared);
 
 private:
   struct Shown;
