@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands where nobody means it.
+// Objects and lamps that are misplaced.
 #pragma once
 #include "preset/preset.h"
 #include "scene/scene.h"

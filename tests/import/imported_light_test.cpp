@@ -55,9 +55,10 @@ TEST_F(ImportedLight, ColoursHaveNoLimit) {
         "value='SCALE'/></emitter>",
         "<shape type='sphere'><emitter type='area'><rgb name='radiance' value='SCALE'/></emitter></shape>",
         "<emitter type='constant'><rgb name='radiance' value='SCALE'/></emitter>"}) {
-    const double one = light(emitter, 1);
-    EXPECT_GT(one, 0) << emitter;
-    for (const double scale : {1e4, 1e7, 1e9}) EXPECT_NEAR(light(emitter, scale) / one / scale, 1, 1e-6) << emitter;
+    const double unscaled = light(emitter, 1);
+    EXPECT_GT(unscaled, 0) << emitter;
+    for (const double scale : {1e4, 1e7, 1e9})
+      EXPECT_NEAR(light(emitter, scale) / unscaled / scale, 1, 1e-6) << emitter;
   }
 }
 

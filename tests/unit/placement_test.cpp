@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands where nobody means it is said when a scene is loaded.
+// Objects and lamps that are misplaced are told.
 #include "scene/placement.h"
 #include "tests/support/loaded_scenes.h"
 
