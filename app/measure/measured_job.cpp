@@ -173,6 +173,7 @@ public:
     history_.rows.clear();
     unnoted_.reset();
     history_.measuring_seconds = 0;
+    measurements_ = 0;
     if (job_->progress().work_seconds == 0) began_ = Clock::now(), wall_before_ = 0; // it begins anew
     next_ = wanted_ = 0;
     last_seconds_ = 0;
@@ -188,6 +189,7 @@ public:
     began_ = Clock::now();
     history_.measuring_seconds = saved.measuring_seconds;
     history_.rows = rows_in_columns(saved, history_.columns);
+    measurements_ = history_.rows.size();
     for (const job::HistoryRow& row : history_.rows) last_seconds_ = row.seconds;
     plan_next();
     show();
@@ -234,15 +236,12 @@ private:
     const auto begin = Clock::now();
     const job::Progress& progress = snapshot.progress;
     const bool tells = !snapshot.stands_in && (reference_ || !snapshot.picture->error_draw.empty());
-    if (!tells) { // there is no picture of what was asked for yet, or nothing is known of its error
-      last_seconds_ = progress.work_seconds;
-      next_ = wanted_ = spacing * last_seconds_;
-      return;
-    }
+    ++measurements_;
+    last_seconds_ = progress.work_seconds;
+    if (!tells) return plan_next(); // there is no picture of what was asked for yet, or nothing is known of its error
     job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, errors_of(*snapshot.picture)};
     row.wall_seconds = wall_seconds();
     history_.rows.push_back(std::move(row));
-    last_seconds_ = progress.work_seconds;
     noting_seconds_ = seconds_since(begin);
     history_.measuring_seconds += noting_seconds_;
     plan_next();
@@ -290,7 +289,7 @@ private:
   }
 
   void plan_next() {
-    const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(history_.rows.size(), 1));
+    const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(measurements_, 1));
     const double affordable = (history_.measuring_seconds + one) / measuring_share;
     wanted_ = last_seconds_ * spacing;
     if (const std::optional<double> at = target_seconds()) wanted_ = std::min(wanted_, *at);
@@ -309,11 +308,12 @@ private:
   std::optional<job::Snapshot> unnoted_; ///< the first whole picture, which somebody waits for: noted in the next step
   std::vector<double> times_;            ///< to measure at whatever it takes
   Clock::time_point began_;
-  double wall_before_ = 0;    ///< a resumed run's earlier parts
-  double last_seconds_ = 0;   ///< work at the newest row
-  double next_ = 0;           ///< work when the next row is due
-  double wanted_ = 0;         ///< when it would be if measuring took no time
-  double noting_seconds_ = 0; ///< what the newest row took, without the picture that it is of
+  double wall_before_ = 0;       ///< a resumed run's earlier parts
+  std::size_t measurements_ = 0; ///< with those that told nothing, and have no row
+  double last_seconds_ = 0;      ///< work at the newest measurement
+  double next_ = 0;              ///< work when the next row is due
+  double wanted_ = 0;            ///< when it would be if measuring took no time
+  double noting_seconds_ = 0;    ///< what the newest row took, without the picture that it is of
 };
 
 } // namespace

@@ -8,6 +8,8 @@
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 
+#include <thread>
+
 namespace nephroid::measured_job_test {
 
 constexpr int size = 64;
@@ -119,6 +121,32 @@ TEST(MeasuredJob, WithoutAReferenceTheEstimateIsWhatThereIs) {
   EXPECT_EQ(history.error_column, "estimated_lab_mean");
   EXPECT_THAT(history.columns, Not(Contains("lab_mean")));
   EXPECT_GE(history.rows.front().step, 2) << "it needs both halves";
+}
+
+/// Its pictures take 2 ms each and tell nothing of their error; a step is 1 ms of work.
+class SilentJob final : public job::Job {
+public:
+  explicit SilentJob(int& pictures) : pictures_(pictures) {}
+  void advance() override { ++done_; }
+  bool finished() const override { return done_ >= 200; }
+  job::Progress progress() const override { return {.step = done_, .work_seconds = 0.001 * done_, .whole = true}; }
+  job::Snapshot snapshot() override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    ++pictures_;
+    return {.picture = std::make_shared<job::Picture>(), .progress = progress()};
+  }
+  void save(ByteSink&) override {}
+  void load(ByteSource&) override {}
+
+private:
+  int done_ = 0, &pictures_;
+};
+
+TEST(MeasuredJob, PicturesThatTellNothingCountAsMeasuringToo) {
+  int pictures = 0;
+  const auto job = measure::measured(std::make_unique<SilentJob>(pictures), settings(), nullptr);
+  while (!job->finished()) job->advance();
+  EXPECT_LE(pictures, 6) << "4 % of .2 s, the first and the last";
 }
 
 TEST(MeasuredJob, NothingToMeasureIsNoHistory) {
