@@ -25,4 +25,13 @@ void for_ranges(std::size_t items, std::size_t size, const Work& work) {
   });
 }
 
+/// Calls work(i) for each i of 0..items-1, where a call takes little.
+template <class Work>
+void for_items(std::size_t items, const Work& work) {
+  constexpr std::size_t items_of_a_block = 1 << 13;
+  for_ranges(items, items_of_a_block, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) work(i);
+  });
+}
+
 } // namespace nephroid

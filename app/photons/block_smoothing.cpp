@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/block_smoothing.h"
 
+#include "base/parallel.h"
 #include "photons/mixture.h"
 
 #include <algorithm>
@@ -29,17 +30,18 @@ double pixels_needed(const Blocks& blocks, const LayerEstimate& layer) {
 void add_hidden(const Blocks& blocks, LayerEstimate& layer) {
   const Blocks pairs{blocks.across(), blocks.down(), 2};
   const std::vector<float> larger = between_blocks(pairs, mean_of_blocks(pairs, layer.rgb));
-  for (std::size_t i = 0; i < layer.draw.size(); ++i) {
+  for_items(layer.draw.size(), [&](std::size_t i) {
     const float hidden = std::min(std::abs(layer.rgb[i] - larger[i]), std::abs(layer.rgb[i]));
     layer.draw[i] = std::copysign(std::hypot(layer.draw[i], hidden), layer.draw[i]);
-  }
+  });
 }
 
 /// `of` with the colours of `colour`, whose light is not needed: both halves of it. A place without light in `colour`
 /// stays as it is.
 LayerEstimate recoloured(const LayerEstimate& of, const LayerEstimate& colour) {
   LayerEstimate result = of;
-  for (std::size_t i = 0; i < of.rgb.size(); i += 3) {
+  for_items(of.rgb.size() / 3, [&](std::size_t pixel) {
+    const std::size_t i = 3 * pixel;
     std::array<float, 3> half[2];
     for (int h = 0; h < 2; ++h) {
       const float sign = h == 0 ? 1.0f : -1.0f;
@@ -56,7 +58,7 @@ LayerEstimate recoloured(const LayerEstimate& of, const LayerEstimate& colour) {
       result.rgb[i + c] = (half[0][c] + half[1][c]) / 2;
       result.draw[i + c] = (half[0][c] - half[1][c]) / 2;
     }
-  }
+  });
   return result;
 }
 
@@ -122,9 +124,10 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
     // Where few portions fell, or none, their noise is unknown: there nothing supports the finer estimate.
     constexpr double least_portions = 16, around = 15 * 15; // pixels
     const std::vector<double> coarse_light = light_of(mixed.rgb);
-    for (std::size_t i = 0; i < light.size(); ++i)
+    for_items(light.size(), [&](std::size_t i) {
       if (portion[i] <= 0 || coarse_light[i] * around < least_portions * portion[i])
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) fine.rgb[c] = mixed.rgb[c], fine.draw[c] = mixed.draw[c];
+    });
     mix_in(fine);
   }
   const auto is_small = [&](std::size_t level) { return levels_[level].blocks.edge < first_.edge; };

@@ -41,6 +41,7 @@ std::vector<int> preview_edges(int width, int height) {
 }
 
 std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb) {
+  if (blocks.edge == 1) return {rgb.begin(), rgb.end()};
   const auto across = static_cast<std::size_t>(blocks.across()), down = static_cast<std::size_t>(blocks.down()),
              width = static_cast<std::size_t>(blocks.width), height = static_cast<std::size_t>(blocks.height),
              edge = static_cast<std::size_t>(blocks.edge);
@@ -62,6 +63,7 @@ std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> r
 }
 
 std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> rgb) {
+  if (blocks.edge == 1) return {rgb.begin(), rgb.end()};
   const auto across = static_cast<std::size_t>(blocks.across()), width = static_cast<std::size_t>(blocks.width);
   const std::vector<Between> columns = places_between(blocks.width, blocks.across(), blocks.edge),
                              rows = places_between(blocks.height, blocks.down(), blocks.edge);

@@ -8,9 +8,7 @@
 #include "tracing/world.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace nephroid::photons {
@@ -19,9 +17,8 @@ namespace {
 /// Steps by which kernels are balanced at the border of a surface.
 constexpr int balancing_steps = 3;
 
-/// How far a kernel may reach, and the radius around a pixel of its noise's mean, in pixels.
-constexpr int reach = 6, noise_radius = 7;
-constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
+/// The radius around a pixel of its noise's mean, in pixels.
+constexpr int noise_radius = 7;
 
 /// Two pixels are on one nearly flat part where their normals are within 25 degrees, and their way 30 of the surface.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
@@ -32,32 +29,6 @@ constexpr int pull_reach = 2;
 
 /// The radius around a pixel of the mean of the bias of spread light, in pixels.
 constexpr int bias_radius = 12;
-
-struct Offset {
-  int x, y;
-  int distance2() const { return x * x + y * y; }
-};
-
-/// The pixels within reach, nearest first.
-struct Reach {
-  std::vector<Offset> offsets;
-  std::vector<std::uint32_t> ring_ends; ///< for each ring of pixels equally far away, one past its last
-};
-
-const Reach& within_reach() {
-  static const Reach sorted = [] {
-    Reach within;
-    for (int y = -reach; y <= reach; ++y)
-      for (int x = -reach; x <= reach; ++x)
-        if (x * x + y * y <= reach * reach) within.offsets.push_back({x, y});
-    std::ranges::stable_sort(within.offsets, {}, &Offset::distance2);
-    for (std::size_t end = 1; end <= within.offsets.size(); ++end)
-      if (end == within.offsets.size() || within.offsets[end].distance2() > within.offsets[end - 1].distance2())
-        within.ring_ends.push_back(static_cast<std::uint32_t>(end));
-    return within;
-  }();
-  return sorted;
-}
 
 /// Calls work(i, j) for each pair of pixels that touch at a side, and with `diagonal` also at a corner.
 template <class Work>
@@ -117,14 +88,14 @@ void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std
   const SummedArea change(width, height, [&](std::size_t i) { return changed(i, 0); });
   const SummedArea product(width, height, [&](std::size_t i) { return changed(i, -1); });
   const SummedArea square(width, height, [&](std::size_t i) { return std::pow(changed(i, -1), 2); });
-  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+  for_items(rgb.size() / 3, [&](std::size_t i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
     const double bias2 = product.sum(x, y, bias_radius), change2 = change.sum(x, y, bias_radius);
-    if (bias2 <= 0 || change2 <= 0) continue;
+    if (bias2 <= 0 || change2 <= 0) return;
     const double scatter2 = std::max(square.sum(x, y, bias_radius), 0.0);
     const auto g = static_cast<float>(std::sqrt(std::min(bias2 / change2 / (1 + scatter2 / (bias2 * bias2)), 1.0)));
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) draw_spread[c] += g * (rgb_spread[c] - rgb[c]);
-  }
+  });
 }
 
 /// How much of each pixel's light is better spread, 0..1. Spreading changes the picture m = truth + noise to m + r, and
@@ -145,7 +116,7 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
   std::vector<double> changes(light.size()), gains(light.size());
-  for (std::size_t i = 0; i < light.size(); ++i) {
+  for_items(light.size(), [&](std::size_t i) {
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
       const double d = error_draw[c], q = (static_cast<double>(a_spread[c]) - b_spread[c]) / 2 - d;
       changes[i] += std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2);
@@ -155,7 +126,7 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
                  weight = 1 / std::max(near, changes[i] / near);
     changes[i] *= weight;
     gains[i] *= weight;
-  }
+  });
   const SummedArea change(width, height, [&](std::size_t i) { return changes[i]; });
   const SummedArea gain(width, height, [&](std::size_t i) { return gains[i]; });
   const SummedArea worth(width, height, [&](std::size_t i) {
@@ -165,8 +136,9 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
   });
   // A share that jumped would be seen as a line.
   std::vector<float> share(light.size());
-  for (std::size_t i = 0; i < share.size(); ++i)
+  for_items(share.size(), [&](std::size_t i) {
     share[i] = static_cast<float>(worth.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius));
+  });
   return share;
 }
 
@@ -177,114 +149,30 @@ struct PixelSight {
   bool at_edge = false;           ///< whether a neighbour shows something else, whose light the pixel may hold
 };
 
-/// The pixels that light may be spread over.
-struct SpreadDomain {
-  int width, height;
-  std::span<const Smoothing::Level> level; ///< [pixel]
-  std::vector<std::size_t> steps = {}; ///< [of the pixels within reach]: what to add to a pixel's number, modulo 2^64
-  SpreadDomain(int columns, int rows, std::span<const Smoothing::Level> levels)
-      : width(columns), height(rows), level(levels) {
-    for (const Offset& o : within_reach().offsets)
-      steps.push_back(static_cast<std::size_t>(std::ptrdiff_t{o.y} * width + o.x));
-  }
-};
-
-/// Where a pixel's light goes, by how each pixel is favoured. The outermost ring gets less: no kernel jumps.
-struct Kernel {
-  std::uint32_t inside = 0,
-                end = 0;  ///< numbers of the pixels before the outermost ring, and with it
-  double ring_weight = 1; ///< weight of a pixel of that ring, 0..1
-  double scale = 1;       ///< factor that makes the sum of all weights 1
-};
-
 bool are_level(const PixelSight& a, const PixelSight& b) {
   if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
   const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
   return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
 }
 
-/// Calls work(j) for each pixel j that pixel i may give light to, among the numbers begin..end-1 within reach.
-template <class Work>
-void for_level(const SpreadDomain& at, std::size_t i, std::uint32_t begin, std::uint32_t end, const Work& work) {
-  constexpr std::uint32_t bits = 64;
-  for (std::uint32_t word = begin / bits; word * bits < end; ++word) {
-    std::uint64_t level = at.level[i][word];
-    if (begin > word * bits) level &= ~std::uint64_t{0} << (begin - word * bits);
-    if (end - word * bits < bits) level &= (std::uint64_t{1} << (end - word * bits)) - 1;
-    for (; level != 0; level &= level - 1)
-      work(i + at.steps[word * bits + static_cast<std::uint32_t>(std::countr_zero(level))]);
-  }
-}
-
-/// Finds each [pixel]'s kernel: it holds `wanted` of `light`, or reaches as far as any may.
-std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double> light, std::span<const double> wanted,
-                                 std::span<const double> favour) {
-  std::vector<Kernel> kernels(light.size());
-  for_ranges(kernels.size(), block_pixels, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      Kernel kernel;
-      double inside = 0, ring = 0, favours = 0, ring_favours = 0;
-      for (const std::uint32_t end : within_reach().ring_ends) {
-        if (kernel.end > 0 && inside + ring >= wanted[i]) break;
-        inside += std::exchange(ring, 0);
-        favours += std::exchange(ring_favours, 0);
-        kernel.inside = kernel.end;
-        for_level(at, i, std::exchange(kernel.end, end), end,
-                  [&](std::size_t j) { ring += light[j], ring_favours += favour[j]; });
-      }
-      if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted[i] - inside) / ring, 0.0, 1.0);
-      kernel.scale = 1 / (favours + kernel.ring_weight * ring_favours);
-      kernels[i] = kernel;
-    }
-  });
-  return kernels;
-}
-
-/// Calls give(i, j, part) with the part of its light that each `needed(i)` gives to j, on every core with its own j.
-template <class Needed, class Give>
-void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
-                const Needed& needed, const Give& give) {
-  // A block of rows collects from all pixels within reach of it, in their order: the same bits on any number of cores.
-  for_ranges(static_cast<std::size_t>(at.height), block_rows, [&](std::size_t, Range rows) {
-    const std::size_t width = static_cast<std::size_t>(at.width), first = rows.begin * width, end = rows.end * width;
-    const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
-    const std::size_t to = std::min<std::size_t>(rows.end + reach, static_cast<std::size_t>(at.height)) * width;
-    for (std::size_t i = from; i < to; ++i) {
-      if (!needed(i)) continue;
-      const Kernel& kernel = kernels[i];
-      const auto give_to = [&](std::uint32_t begin, std::uint32_t past, double weight) {
-        for_level(at, i, begin, past, [&](std::size_t j) {
-          if (j >= first && j < end) give(i, j, weight * favour[j]);
-        });
-      };
-      give_to(0, kernel.inside, kernel.scale);
-      give_to(kernel.inside, kernel.end, kernel.scale * kernel.ring_weight);
-    }
-  });
-}
-
 /// The kernels spread `share` of each pixel's value; the rest stays.
-void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour,
+void spread_shares(const SpreadDomain& domain, const SpreadKernels& kernels, const Plane& favour,
                    std::span<const float> share, std::vector<float>& rgb) {
-  using Colour = std::array<float, 4>; // four numbers are added as fast as one
-  std::vector<Colour> given(at.level.size()), kept(at.level.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) {
-    given[i / 3][i % 3] = share[i / 3] * rgb[i];
-    kept[i / 3][i % 3] = (1 - share[i / 3]) * rgb[i];
-  }
-  give_parts(
-      at, kernels, favour, [&](std::size_t i) { return given[i] != Colour{}; },
-      [&](std::size_t i, std::size_t j, double part) {
-        for (std::size_t c = 0; c < 4; ++c) kept[j][c] += static_cast<float>(part) * given[i][c];
-      });
-  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = kept[i / 3][i % 3];
+  std::array<Plane, 3> given;
+  for (std::size_t c = 0; c < 3; ++c) given[c] = domain.plane([&](std::size_t i) { return share[i] * rgb[3 * i + c]; });
+  const std::array<Plane, 3> collected = domain.collect(kernels, given);
+  for_items(share.size(), [&](std::size_t i) {
+    for (std::size_t c = 0; c < 3; ++c) rgb[3 * i + c] = (1 - share[i]) * rgb[3 * i + c] + favour[i] * collected[c][i];
+  });
 }
 
 } // namespace
 
 std::vector<double> light_of(std::span<const float> rgb) {
   std::vector<double> light(rgb.size() / 3);
-  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
+  for_items(light.size(), [&](std::size_t i) {
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) light[i] += std::max(static_cast<double>(rgb[c]), 0.0) / 3;
+  });
   return light;
 }
 
@@ -295,11 +183,11 @@ std::vector<double> portions(std::span<const double> light, std::span<const floa
     return (r * r + g * g + b * b) / 3;
   });
   std::vector<double> portion(light.size());
-  for (std::size_t i = 0; i < portion.size(); ++i) {
+  for_items(portion.size(), [&](std::size_t i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
     const double near = lights.mean(x, y, noise_radius);
     portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_radius), 0.0) / near : 0;
-  }
+  });
   return portion;
 }
 
@@ -370,33 +258,23 @@ void Smoothing::find_surfaces() {
     for (std::size_t i = 0; i < knows_texture.size(); ++i)
       if (!knows_texture[i]) texture_[3 * i + c] = count > 0 ? static_cast<float>(sum / count) : 1;
   }
-  level_.resize(seen.size());
-  for_ranges(seen.size(), 1 << 12, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      for (std::size_t number = 0; number < within_reach().offsets.size(); ++number) {
-        const Offset& o = within_reach().offsets[number];
-        const int x = static_cast<int>(i) % width_ + o.x, y = static_cast<int>(i) / width_ + o.y;
-        if (x < 0 || x >= width_ || y < 0 || y >= height_) continue;
-        const std::size_t j =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-        if (j == i || are_level(seen[i], seen[j])) level_[i][number / 64] |= std::uint64_t{1} << (number % 64);
-      }
-  });
+  domain_ = SpreadDomain(width_, height_, [&](std::size_t i, std::size_t j) { return are_level(seen[i], seen[j]); });
 }
 
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh) {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
   return tracing::tree_bytes(bvh) + tracing::mesh_bytes(scene) +
-         (sizeof(PixelSurfaces) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
+         (sizeof(PixelSurfaces) + sizeof(PixelSight) + SpreadDomain::bytes_per_pixel() + pulled_apart) *
+             scene.camera.pixels();
 }
 
 void Smoothing::take_textures_out(std::vector<float>& values) {
   find_surfaces();
-  if (!texture_.empty()) std::ranges::transform(values, texture_, values.begin(), std::divides());
+  for_items(std::min(values.size(), texture_.size()), [&](std::size_t i) { values[i] /= texture_[i]; });
 }
 
 void Smoothing::put_textures_in(std::vector<float>& values) const {
-  if (!texture_.empty()) std::ranges::transform(values, texture_, values.begin(), std::multiplies());
+  for_items(std::min(values.size(), texture_.size()), [&](std::size_t i) { values[i] *= texture_[i]; });
 }
 
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known,
@@ -420,36 +298,40 @@ void Smoothing::spread_light(std::vector<float>& rgb, std::vector<float>& error_
   keep_lamps({}, rgb);
   keep_lamps({}, error_draw);
   const std::vector<double> light = light_of(rgb);
-  std::vector<double> wanted = portions(light, error_draw, width_, height_);
-  for (double& portion : wanted) portion /= noise * noise; // n portions have the noise 1 / sqrt(n)
-
-  const SpreadDomain at{width_, height_, level_};
+  const std::vector<double> portion = portions(light, error_draw, width_, height_);
+  const Plane wanted = domain_.plane([&](std::size_t i) { return portion[i] / (noise * noise); }); // n portions have
+                                                                                                   // noise 1 / sqrt(n)
   // In even light a pixel at the border of a part takes less than it gives, and one a kernel away from there takes
   // more. Sinkhorn and Knopp (1967) even that out, a step after the other, and still every pixel gives away what it
   // has.
-  const std::vector<double> even(level_.size(), 1);
-  std::vector<double> favour = even;
+  const auto kernels_of = [&](std::span<const double> of) {
+    return domain_.kernels_of(domain_.plane([&](std::size_t i) { return of[i]; }), wanted);
+  };
+  SpreadKernels kernels = kernels_of(light);
+  const std::array<Plane, 1> even = {domain_.plane([](std::size_t) { return 1; })};
+  Plane favour = even[0];
   for (int step = 0; step < balancing_steps; ++step) {
-    std::vector<double> taken(level_.size());
-    give_parts(
-        at, find_kernels(at, light, wanted, favour), favour, [](std::size_t) { return true; },
-        [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
-    std::transform(favour.begin(), favour.end(), taken.begin(), favour.begin(), std::divides());
+    domain_.scale(kernels, favour);
+    const Plane taken = domain_.collect(kernels, even)[0];
+    favour = domain_.plane([&](std::size_t i) { return 1 / taken[i]; });
   }
-  const std::vector<Kernel> kernels = find_kernels(at, light, wanted, favour);
+  domain_.scale(kernels, favour);
 
-  std::vector<float> share(level_.size(), 1);
-  const auto spread_by = [&](const std::vector<Kernel>& by, std::vector<float> picture) {
-    spread_shares(at, by, favour, share, picture);
+  std::vector<float> share(light.size(), 1);
+  const auto spread_by = [&](const SpreadKernels& by, std::vector<float> picture) {
+    spread_shares(domain_, by, favour, share, picture);
     return picture;
+  };
+  const auto spread_half = [&](const std::vector<float>& half) {
+    SpreadKernels own = kernels_of(light_of(half));
+    domain_.scale(own, favour);
+    return spread_by(own, half);
   };
   std::vector<float> rgb_spread = spread_by(kernels, rgb);
   if (spread_ == Spread::where_it_helps) {
     std::vector<float> a = rgb, b = rgb;
-    std::ranges::transform(rgb, error_draw, a.begin(), std::plus());
-    std::ranges::transform(rgb, error_draw, b.begin(), std::minus());
-    share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_by(find_kernels(at, light_of(a), wanted, favour), a),
-                              spread_by(find_kernels(at, light_of(b), wanted, favour), b), light, width_, height_);
+    for_items(rgb.size(), [&](std::size_t i) { a[i] += error_draw[i], b[i] -= error_draw[i]; });
+    share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_half(a), spread_half(b), light, width_, height_);
     rgb_spread = spread_by(kernels, rgb);
   }
   std::vector<float> draw_spread = spread_by(kernels, error_draw);

@@ -6,10 +6,10 @@
 // are narrow where photons are dense, so that bright lines stay sharp, and wide where photons are few. A pixel that is
 // not noisy is left alone; in the end none is, so the limit is that of the plain film. Power stays.
 #pragma once
+#include "photons/spread_kernels.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -68,17 +68,14 @@ public:
   void spread_light(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> known = {},
                     double noise = usual_noise);
 
-  /// Where a pixel's light may go: a bit for each pixel within reach, nearest first, lowest bit first.
-  using Level = std::array<std::uint64_t, 2>;
-
 private:
   int width_, height_;
   Spread spread_;
   std::shared_ptr<const View> view_; ///< null once the surfaces are found
   bool has_textures_ = true;         ///< whether the light that comes has them
   FindTexture find_texture_;
-  std::vector<float> texture_;     ///< of find_texture_
-  std::vector<Level> level_;       ///< [pixel]
+  std::vector<float> texture_; ///< of find_texture_
+  SpreadDomain domain_;
   std::vector<std::size_t> lamps_; ///< pixels that may hold light which a lamp sends there itself, and keep it
 };
 

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photons/spread_kernels.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace nephroid::photons {
+namespace {
+
+/// How far a kernel may reach, in pixels.
+constexpr int reach = 6;
+
+/// Pixels that do the same at once, in a vector register that every machine has.
+constexpr std::size_t lanes = 4;
+using Floats = float __attribute__((vector_size(lanes * sizeof(float))));
+using Words = std::int32_t __attribute__((vector_size(lanes * sizeof(std::int32_t))));
+
+constexpr std::size_t run = 16, block_pixels = 1 << 12, bits = 32;
+
+struct Offset {
+  int x, y;
+  int distance2() const { return x * x + y * y; }
+};
+
+/// The pixels within reach, nearest first. The one across has the same distance, so it is in the same ring.
+struct Reach {
+  std::vector<Offset> offsets;
+  std::vector<std::uint32_t> ring_ends; ///< for each ring of pixels equally far away, one past its last
+};
+
+const Reach& within_reach() {
+  static const Reach sorted = [] {
+    Reach within;
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x)
+        if (x * x + y * y <= reach * reach) within.offsets.push_back({x, y});
+    std::ranges::stable_sort(within.offsets, {}, &Offset::distance2);
+    for (std::size_t end = 1; end <= within.offsets.size(); ++end)
+      if (end == within.offsets.size() || within.offsets[end].distance2() > within.offsets[end - 1].distance2())
+        within.ring_ends.push_back(static_cast<std::uint32_t>(end));
+    return within;
+  }();
+  return sorted;
+}
+
+std::size_t words() { return (within_reach().offsets.size() + bits - 1) / bits; }
+
+/// What to add to a pixel's number.
+std::vector<std::ptrdiff_t> steps(int width) {
+  std::vector<std::ptrdiff_t> steps;
+  for (const Offset& o : within_reach().offsets) steps.push_back(std::ptrdiff_t{o.y} * width + o.x);
+  return steps;
+}
+
+template <class Vector, class Value>
+Vector load(const Value* from) {
+  Vector vector;
+  std::memcpy(&vector, from, sizeof(vector));
+  return vector;
+}
+
+void keep(const Floats& of, std::size_t first, std::size_t end, Plane& in) {
+  for (std::size_t lane = 0; lane < std::min(lanes, end - first); ++lane) in[first + lane] = of[lane];
+}
+
+bool any(Words of) {
+  return std::ranges::any_of(std::bit_cast<std::array<std::int32_t, lanes>>(of), [](int word) { return word != 0; });
+}
+
+/// The values where may_give has the bit of the pixel `number` of those within reach, else 0.
+Floats where(Words may_give, std::uint32_t number, Floats values) {
+  const Words is_set = (may_give & static_cast<std::int32_t>(std::uint32_t{1} << number % bits)) != 0;
+  return is_set ? values : Floats{};
+}
+
+} // namespace
+
+Plane::Plane(std::size_t pixels, std::size_t margin, float value)
+    : margin_(margin), values_(pixels + 2 * margin + lanes) {
+  std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(margin), pixels, value);
+}
+
+SpreadDomain::SpreadDomain(int width, int height, const std::function<bool(std::size_t, std::size_t)>& may_give)
+    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      margin_(static_cast<std::size_t>(reach) * static_cast<std::size_t>(width + 1)) {
+  const std::size_t plane = pixels_ + lanes;
+  may_give_.resize(words() * plane);
+  for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      for (std::size_t number = 0; number < within_reach().offsets.size(); ++number) {
+        const Offset& o = within_reach().offsets[number];
+        const int x = static_cast<int>(i) % width + o.x, y = static_cast<int>(i) / width + o.y;
+        if (x < 0 || x >= width || y < 0 || y >= height) continue;
+        const std::size_t j =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+        if (j == i || may_give(i, j)) may_give_[number / bits * plane + i] |= std::uint32_t{1} << (number % bits);
+      }
+  });
+}
+
+std::uint64_t SpreadDomain::bytes_per_pixel() { return words() * sizeof(std::uint32_t); }
+
+std::vector<const std::uint32_t*> SpreadDomain::words_of_pixels() const {
+  std::vector<const std::uint32_t*> words;
+  for (std::size_t begin = 0; begin < may_give_.size(); begin += pixels_ + lanes) words.push_back(&may_give_[begin]);
+  return words;
+}
+
+SpreadKernels SpreadDomain::kernels_of(const Plane& light, const Plane& wanted) const {
+  SpreadKernels kernels{zeros(), zeros(), zeros(), zeros(), zeros()};
+  const std::vector<std::ptrdiff_t> step = steps(width_);
+  const std::vector<const std::uint32_t*> may_give = words_of_pixels();
+  for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; i += lanes) {
+      const auto want = load<Floats>(wanted.at(static_cast<std::ptrdiff_t>(i)));
+      Floats held{}, ring{}, inside{}, end{};
+      Words grows = Words{} == 0;
+      std::uint32_t number = 0;
+      for (const std::uint32_t ring_end : within_reach().ring_ends) {
+        if (number > 0) grows &= held + ring < want;
+        if (!any(grows)) break;
+        held += grows ? ring : Floats{};
+        ring = grows ? Floats{} : ring;
+        inside = grows ? end : inside;
+        end = grows ? Floats{} + static_cast<float>(ring_end) : end;
+        for (; number < ring_end; ++number)
+          ring += where(grows & load<Words>(may_give[number / bits] + i), number,
+                        load<Floats>(light.at(static_cast<std::ptrdiff_t>(i) + step[number])));
+      }
+      Floats weight = (want - held) / ring;
+      weight = weight < 0 ? Floats{} : weight > 1 ? Floats{} + 1 : weight;
+      weight = ((inside > 0) & (ring > 0)) ? weight : Floats{} + 1;
+      keep(inside, i, range.end, kernels.inside);
+      keep(end, i, range.end, kernels.end);
+      keep(weight, i, range.end, kernels.ring_weight);
+    }
+  });
+  return kernels;
+}
+
+void SpreadDomain::scale(SpreadKernels& kernels, const Plane& favour) const {
+  const std::vector<std::ptrdiff_t> step = steps(width_);
+  const std::vector<const std::uint32_t*> may_give = words_of_pixels();
+  for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; i += lanes) {
+      const auto at = static_cast<std::ptrdiff_t>(i);
+      const auto inside = load<Floats>(kernels.inside.at(at)), end = load<Floats>(kernels.end.at(at)),
+                 weight = load<Floats>(kernels.ring_weight.at(at));
+      const float most = *std::max_element(kernels.end.at(at), kernels.end.at(at) + lanes);
+      Floats sum{};
+      for (std::uint32_t number = 0; static_cast<float>(number) < most; ++number) {
+        const auto k = static_cast<float>(number);
+        const Floats part = k < inside ? Floats{} + 1 : k < end ? weight : Floats{};
+        sum +=
+            where(load<Words>(may_give[number / bits] + i), number, part * load<Floats>(favour.at(at + step[number])));
+      }
+      keep(1 / sum, i, range.end, kernels.scale);
+      keep(weight / sum, i, range.end, kernels.ring_scale);
+    }
+  });
+}
+
+template <std::size_t channels>
+std::array<Plane, channels> SpreadDomain::collect(const SpreadKernels& kernels,
+                                                  const std::array<Plane, channels>& given) const {
+  std::array<Plane, channels> collected;
+  collected.fill(zeros());
+  const std::vector<std::ptrdiff_t> step = steps(width_);
+  const std::vector<const std::uint32_t*> may_give = words_of_pixels();
+  // The largest kernel of each run of pixels: few are large where photons are many.
+  std::vector<float> largest((pixels_ + run - 1) / run);
+  for (std::size_t i = 0; i < pixels_; ++i) largest[i / run] = std::max(largest[i / run], kernels.end[i]);
+  const auto largest_about = [&](std::size_t first) {
+    float most = 0;
+    for (int y = -reach; y <= reach; ++y) {
+      const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(first) + std::ptrdiff_t{y} * width_ - reach,
+                           to = from + static_cast<std::ptrdiff_t>(run) + 2 * reach;
+      for (std::ptrdiff_t i = from; i < to + static_cast<std::ptrdiff_t>(run) - 1; i += run)
+        if (i >= 0 && i < static_cast<std::ptrdiff_t>(pixels_))
+          most = std::max(most, largest[static_cast<std::size_t>(i) / run]);
+    }
+    return most;
+  };
+  for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
+    float most = 0;
+    for (std::size_t j = range.begin; j < range.end; j += lanes) {
+      if (j % run == 0) most = largest_about(j);
+      std::array<Floats, channels> sum{};
+      for (std::uint32_t number = 0; static_cast<float>(number) < most; ++number) {
+        const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(j) + step[number];
+        const auto k = static_cast<float>(number);
+        const auto inside = load<Floats>(kernels.inside.at(i)), end = load<Floats>(kernels.end.at(i)),
+                   scale = load<Floats>(kernels.scale.at(i)), ring_scale = load<Floats>(kernels.ring_scale.at(i));
+        const Floats within = k < end ? ring_scale : Floats{};
+        const Floats part = where(load<Words>(may_give[number / bits] + j), number, k < inside ? scale : within);
+        for (std::size_t c = 0; c < channels; ++c) sum[c] += part * load<Floats>(given[c].at(i));
+      }
+      for (std::size_t c = 0; c < channels; ++c) keep(sum[c], j, range.end, collected[c]);
+    }
+  });
+  return collected;
+}
+
+template std::array<Plane, 1> SpreadDomain::collect(const SpreadKernels&, const std::array<Plane, 1>&) const;
+template std::array<Plane, 3> SpreadDomain::collect(const SpreadKernels&, const std::array<Plane, 3>&) const;
+
+} // namespace nephroid::photons
