@@ -19,6 +19,9 @@ constexpr std::size_t lanes = 4;
 using Floats = float __attribute__((vector_size(lanes * sizeof(float))));
 using Words = std::int32_t __attribute__((vector_size(lanes * sizeof(std::int32_t))));
 
+/// So many of these registers go through the pixels within reach together.
+constexpr std::size_t vectors = 2, group = vectors * lanes;
+
 constexpr std::size_t run = 16, block_pixels = 1 << 12, bits = 32;
 
 struct Offset {
@@ -64,7 +67,7 @@ Vector load(const Value* from) {
 }
 
 void keep(const Floats& of, std::size_t first, std::size_t end, Plane& in) {
-  for (std::size_t lane = 0; lane < std::min(lanes, end - first); ++lane) in[first + lane] = of[lane];
+  for (std::size_t lane = 0; lane < lanes && first + lane < end; ++lane) in[first + lane] = of[lane];
 }
 
 bool any(Words of) {
@@ -80,14 +83,14 @@ Floats where(Words may_give, std::uint32_t number, Floats values) {
 } // namespace
 
 Plane::Plane(std::size_t pixels, std::size_t margin, float value)
-    : margin_(margin), values_(pixels + 2 * margin + lanes) {
+    : margin_(margin), values_(pixels + 2 * margin + group) {
   std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(margin), pixels, value);
 }
 
 SpreadDomain::SpreadDomain(int width, int height, const std::function<bool(std::size_t, std::size_t)>& may_give)
     : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       margin_(static_cast<std::size_t>(reach) * static_cast<std::size_t>(width + 1)) {
-  const std::size_t plane = pixels_ + lanes;
+  const std::size_t plane = pixels_ + group;
   may_give_.resize(words() * plane);
   for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
@@ -106,7 +109,7 @@ std::uint64_t SpreadDomain::bytes_per_pixel() { return words() * sizeof(std::uin
 
 std::vector<const std::uint32_t*> SpreadDomain::words_of_pixels() const {
   std::vector<const std::uint32_t*> words;
-  for (std::size_t begin = 0; begin < may_give_.size(); begin += pixels_ + lanes) words.push_back(&may_give_[begin]);
+  for (std::size_t begin = 0; begin < may_give_.size(); begin += pixels_ + group) words.push_back(&may_give_[begin]);
   return words;
 }
 
@@ -116,7 +119,9 @@ SpreadKernels SpreadDomain::kernels_of(const Plane& light, const Plane& wanted) 
   const std::vector<const std::uint32_t*> may_give = words_of_pixels();
   for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; i += lanes) {
-      const auto want = load<Floats>(wanted.at(static_cast<std::ptrdiff_t>(i)));
+      const auto at = static_cast<std::ptrdiff_t>(i);
+      const auto want = load<Floats>(wanted.at(at));
+      const float* const light_at = light.at(at);
       Floats held{}, ring{}, inside{}, end{};
       Words grows = Words{} == 0;
       std::uint32_t number = 0;
@@ -128,8 +133,8 @@ SpreadKernels SpreadDomain::kernels_of(const Plane& light, const Plane& wanted) 
         inside = grows ? end : inside;
         end = grows ? Floats{} + static_cast<float>(ring_end) : end;
         for (; number < ring_end; ++number)
-          ring += where(grows & load<Words>(may_give[number / bits] + i), number,
-                        load<Floats>(light.at(static_cast<std::ptrdiff_t>(i) + step[number])));
+          ring +=
+              where(grows & load<Words>(may_give[number / bits] + i), number, load<Floats>(light_at + step[number]));
       }
       Floats weight = (want - held) / ring;
       weight = weight < 0 ? Floats{} : weight > 1 ? Floats{} + 1 : weight;
@@ -150,13 +155,13 @@ void SpreadDomain::scale(SpreadKernels& kernels, const Plane& favour) const {
       const auto at = static_cast<std::ptrdiff_t>(i);
       const auto inside = load<Floats>(kernels.inside.at(at)), end = load<Floats>(kernels.end.at(at)),
                  weight = load<Floats>(kernels.ring_weight.at(at));
-      const float most = *std::max_element(kernels.end.at(at), kernels.end.at(at) + lanes);
+      const auto past = static_cast<std::uint32_t>(*std::max_element(kernels.end.at(at), kernels.end.at(at) + lanes));
+      const float* const favour_at = favour.at(at);
       Floats sum{};
-      for (std::uint32_t number = 0; static_cast<float>(number) < most; ++number) {
-        const auto k = static_cast<float>(number);
+      for (std::uint32_t number = 0; number < past; ++number) {
+        const Floats k = Floats{} + static_cast<float>(number);
         const Floats part = k < inside ? Floats{} + 1 : k < end ? weight : Floats{};
-        sum +=
-            where(load<Words>(may_give[number / bits] + i), number, part * load<Floats>(favour.at(at + step[number])));
+        sum += where(load<Words>(may_give[number / bits] + i), number, part * load<Floats>(favour_at + step[number]));
       }
       keep(1 / sum, i, range.end, kernels.scale);
       keep(weight / sum, i, range.end, kernels.ring_scale);
@@ -186,20 +191,30 @@ std::array<Plane, channels> SpreadDomain::collect(const SpreadKernels& kernels,
     return most;
   };
   for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
+    const std::ptrdiff_t* const from = step.data(); // plain pointers: nothing is looked up again for each pixel
+    const std::uint32_t* const* const bit_words = may_give.data();
     float most = 0;
-    for (std::size_t j = range.begin; j < range.end; j += lanes) {
+    for (std::size_t j = range.begin; j < range.end; j += group) {
       if (j % run == 0) most = largest_about(j);
-      std::array<Floats, channels> sum{};
-      for (std::uint32_t number = 0; static_cast<float>(number) < most; ++number) {
-        const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(j) + step[number];
-        const auto k = static_cast<float>(number);
-        const auto inside = load<Floats>(kernels.inside.at(i)), end = load<Floats>(kernels.end.at(i)),
-                   scale = load<Floats>(kernels.scale.at(i)), ring_scale = load<Floats>(kernels.ring_scale.at(i));
-        const Floats within = k < end ? ring_scale : Floats{};
-        const Floats part = where(load<Words>(may_give[number / bits] + j), number, k < inside ? scale : within);
-        for (std::size_t c = 0; c < channels; ++c) sum[c] += part * load<Floats>(given[c].at(i));
+      const auto at = static_cast<std::ptrdiff_t>(j);
+      const float *const inside = kernels.inside.at(at), *const end = kernels.end.at(at),
+                         *const scale = kernels.scale.at(at), *const ring_scale = kernels.ring_scale.at(at);
+      std::array<const float*, channels> value;
+      for (std::size_t c = 0; c < channels; ++c) value[c] = given[c].at(at);
+      Floats sum[channels][vectors]{};
+      const auto past = static_cast<std::uint32_t>(most);
+      for (std::uint32_t number = 0; number < past; ++number) {
+        const Floats k = Floats{} + static_cast<float>(number);
+        for (std::size_t v = 0; v < vectors; ++v) {
+          const std::ptrdiff_t i = from[number] + static_cast<std::ptrdiff_t>(v * lanes);
+          const Floats within = k < load<Floats>(end + i) ? load<Floats>(ring_scale + i) : Floats{},
+                       weight = k < load<Floats>(inside + i) ? load<Floats>(scale + i) : within;
+          const Floats part = where(load<Words>(bit_words[number / bits] + j + v * lanes), number, weight);
+          for (std::size_t c = 0; c < channels; ++c) sum[c][v] += part * load<Floats>(value[c] + i);
+        }
       }
-      for (std::size_t c = 0; c < channels; ++c) keep(sum[c], j, range.end, collected[c]);
+      for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t v = 0; v < vectors; ++v) keep(sum[c][v], j + v * lanes, range.end, collected[c]);
     }
   });
   return collected;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons a second of engine 1 on the first-light scene, by phase: traced only (the camera looks away, so nothing is
 // projected into a pixel), traced and splatted, samples a second of the direct layer, and the time of a picture of 512
-// x 512, without and with smoothing. Start-up and compiling are not counted.
+// x 512, without and with smoothing, and of smoothing alone. Start-up and compiling are not counted.
+#include "photons/smoothing.h"
 #include "preset/read.h"
 #include "spectral/engine.h"
 
 #include <benchmark/benchmark.h>
+
+#include <random>
 
 namespace {
 
@@ -73,6 +76,37 @@ void picture(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(job->snapshot());
 }
 
+/// Smooths a made picture of 512 x 512 of a floor on which a hundredth of range(0) photons fell in each pixel.
+void smoothing(benchmark::State& state) {
+  preset::Preset p = preset::read_preset("spectral/thesis/bunny");
+  p.scene.camera.resolution = {512, 512};
+  const scene::Scene scene = scene::load_scene(p);
+  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+  using Smoothing = photons::Smoothing;
+  Smoothing smoothing(Smoothing::view_of(scene, bvh), 512, 512, Smoothing::Spread::where_it_helps);
+  smoothing.find_surfaces();
+  std::mt19937 random(1);
+  std::poisson_distribution<int> half(static_cast<double>(state.range(0)) / 200);
+  std::vector<float> rgb, draw;
+  for (int i = 0; i < 512 * 512; ++i) {
+    const int a = half(random), b = half(random);
+    rgb.insert(rgb.end(), 3, static_cast<float>(a + b));
+    draw.insert(draw.end(), 3, static_cast<float>(a - b));
+  }
+  for (auto _ : state) {
+    std::vector<float> spread = rgb, spread_draw = draw;
+    smoothing.spread(spread, spread_draw);
+    benchmark::DoNotOptimize(spread);
+  }
+}
+
+BENCHMARK(smoothing)
+    ->ArgName("photons in 100 pixels")
+    ->Arg(1000)
+    ->Arg(100)
+    ->Arg(10)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK(picture)->ArgName("smoothing")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(photons_traced)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);
 BENCHMARK(photons_traced_and_splatted)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(4);
