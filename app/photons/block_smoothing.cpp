@@ -115,9 +115,9 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
     return between(levels_[level].blocks, spread[level]);
   };
   LayerEstimate mixed = spread_in_level(chosen);
-  const auto mix_in = [&](const LayerEstimate& estimate) {
-    mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb,
-        mixed.draw);
+  const auto mix_in = [&](const LayerEstimate& estimate, int radius = usual_radius) {
+    mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb, mixed.draw,
+        radius);
   };
   for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
     LayerEstimate fine = spread_in_level(finer);
@@ -132,9 +132,9 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
   }
   const auto is_small = [&](std::size_t level) { return levels_[level].blocks.edge < first_.edge; };
   for (std::size_t level = chosen; level-- > 0 && is_small(level);) mix_in(spread_in_level(level));
-  // Colours have more noise than light.
-  for (std::size_t level = levels_.size() - 1; level-- > 0 && is_small(level);)
-    mix_in(recoloured(mixed, spread_in_level(level)));
+  // Colours have more noise than light, so they come from larger blocks, and are judged over some of these.
+  for (std::size_t level = levels_.size() - 1; level-- > 0;)
+    mix_in(recoloured(mixed, spread_in_level(level)), usual_radius + 2 * levels_[level].blocks.edge);
   caustics = std::move(mixed);
 }
 

@@ -10,8 +10,8 @@
 namespace nephroid::photons {
 namespace {
 
-/// The radii around a pixel, in pixels, of the means of its errors and of its light.
-constexpr int error_radius = 8, light_radius = 7;
+/// The radius around a pixel, in pixels, of the mean of its light.
+constexpr int light_radius = 7;
 
 /// The radius of the part of a picture whose mean light is the frame's own. 49 x 49 pixels have little noise together.
 constexpr int part_radius = 24;
@@ -87,7 +87,7 @@ private:
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
     const auto along = [](const std::vector<float>& from, std::size_t count, std::size_t step, std::size_t lines,
                           std::size_t line_step) {
-      constexpr std::size_t radius = error_radius;
+      constexpr std::size_t radius = usual_radius;
       std::vector<float> largest(from.size());
       for_blocks(lines, [&](std::size_t line) {
         const std::size_t begin = line * line_step;
@@ -116,8 +116,8 @@ double least_light(std::span<const double> light) {
 }
 
 void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate,
-         std::span<const double> light, int width, int height, std::vector<float>& rgb,
-         std::vector<float>& error_draw) {
+         std::span<const double> light, int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw,
+         int radius) {
   const auto draw_of = [&](std::size_t c) { return estimate.error_draw.empty() ? 0.0 : estimate.error_draw[c]; };
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
@@ -147,8 +147,8 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
   for_ranges(light.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-      const double scatter = std::sqrt(std::max(scatters.sum(x, y, error_radius), 0.0));
-      const double gain = -slopes.sum(x, y, error_radius) - scatter, square = squares.sum(x, y, error_radius);
+      const double scatter = std::sqrt(std::max(scatters.sum(x, y, radius), 0.0));
+      const double gain = -slopes.sum(x, y, radius) - scatter, square = squares.sum(x, y, radius);
       if (gain <= 0 || square <= 0) continue;
       const auto weight = static_cast<float>(std::min(gain / square, 1.0));
       for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
@@ -190,7 +190,7 @@ std::vector<float> mix_before(const Estimate& before, int width, int height, std
   std::vector<float> with_bias = error_draw;
   for (std::size_t i = 0; i < light.size(); ++i) {
     const double bias_square =
-        std::max(beyond.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, error_radius), 0.0);
+        std::max(beyond.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, usual_radius), 0.0);
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) { // no more than a pixel was moved
       const double bias = std::min(bias_square, std::pow(static_cast<double>(rgb[c]) - own[c], 2));
       with_bias[c] = static_cast<float>(std::copysign(std::sqrt(std::pow(error_draw[c], 2) + bias), error_draw[c]));

@@ -40,8 +40,10 @@ def runs(asked, preset, folder, settings, seeds):
         if not (out / "run.json").exists():
             words = [word for setting in ("scene.camera.resolution=[96,72]", "spectral.smoothing=off", *settings)
                      for word in ("--set", setting)]
-            subprocess.run([asked.program, "run", preset, "-o", str(out), "--passes", str(asked.passes), "--seed",
-                            str(seed), *words], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            run = subprocess.run([asked.program, "run", preset, "-o", str(out), "--passes", str(asked.passes), "--seed",
+                                  str(seed), *words], capture_output=True, text=True)
+            if run.returncode != 0:
+                sys.exit(run.stderr)
         pictures.append(blocks_of(read_layer(out / "image.exr", "").astype(float)))
     return np.array(pictures)
 
