@@ -124,7 +124,7 @@ public:
     if (finished())
       progress.fraction = 1;
     else if (const std::optional<double> at = target_seconds())
-      progress.fraction = std::clamp(progress.work_seconds / *at, progress.fraction, 0.999);
+      progress.fraction = std::max(progress.fraction, std::min(progress.work_seconds / *at, 0.999));
     return progress;
   }
 
@@ -290,7 +290,8 @@ private:
 
   void plan_next() {
     const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(measurements_, 1));
-    const double affordable = (history_.measuring_seconds + one) / measuring_share;
+    const double affordable =
+        (history_.measuring_seconds + one) / (history_.target ? measuring_share_to_stop : measuring_share);
     wanted_ = last_seconds_ * spacing;
     if (const std::optional<double> at = target_seconds()) wanted_ = std::min(wanted_, *at);
     next_ = std::max(wanted_, affordable);

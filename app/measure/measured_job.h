@@ -23,8 +23,9 @@ struct Reference {
   Pixels pixels() const { return {width, height, rgb, origin}; }
 };
 
-/// At most so much of the work's time is spent on measuring, the first and the last measurement excepted.
-inline constexpr double measuring_share = 0.04;
+/// At most so much of the work's time is spent on measuring, the first and the last measurement excepted; and so much
+/// where an error may stop the run, which would otherwise go on for longer than measuring takes.
+inline constexpr double measuring_share = 0.04, measuring_share_to_stop = 0.25;
 
 /// Wraps a job. reference: null where there is none. began: when the run's wall clock started. Measurements come at
 /// times that grow by a fifth, and where stop.error is about to be reached; a step measures or works, never both, and

@@ -150,11 +150,11 @@ ITEM_KERNEL(direct, (WORLD_ARGUMENTS, volatile __global long* film,
   sample.seed = launch.seed;
   sample.pixel = samples[index].x;
   sample.frame = samples[index].y;
-  SET_ASIDE float4 jitter = eye_numbers(launch.seed, sample.frame, 1u, sample.pixel, 0u, STREAM_CAMERA);
+  SET_ASIDE float4 jitter = place_numbers(launch.seed, sample.frame, sample.pixel);
   float3 direction;
   EYE_OF(camera);
   const Hit hit =
-      first_hit(&world, eye, sample.pixel, jitter.xy, launch.seed, sample.frame, STREAM_CAMERA, &direction);
+      first_hit(&world, eye, sample.pixel, jitter.xy, launch.seed, sample.frame, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 #if NEPHROID_RECEIVERS
   sample.receivers = receivers_of(receiver_table);

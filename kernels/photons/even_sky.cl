@@ -58,10 +58,10 @@ ITEM_KERNEL(even_sky, (WORLD_ARGUMENTS, int light_index,
   if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_EVEN_SKY);
+  SET_ASIDE float4 jitter = place_numbers(launch.seed, frame, pixel);
   float3 direction;
   EYE_OF(camera);
-  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_EVEN_SKY, &direction);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = direction;

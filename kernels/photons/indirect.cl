@@ -162,10 +162,10 @@ ITEM_KERNEL(indirect, (WORLD_ARGUMENTS,
   if (index >= launch.count) return;
   const uint pixel = samples[index].x;
   SET_ASIDE uint frame = samples[index].y;
-  SET_ASIDE float4 jitter = eye_numbers(launch.seed, frame, 1u, pixel, 0u, STREAM_INDIRECT);
+  SET_ASIDE float4 jitter = place_numbers(launch.seed, frame, pixel);
   float3 direction;
   EYE_OF(camera);
-  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, STREAM_INDIRECT, &direction);
+  const Hit hit = first_hit(&world, eye, pixel, jitter.xy, launch.seed, frame, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   const bool unbent = is_unbent(&world, &camera, &hit);

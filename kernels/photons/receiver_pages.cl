@@ -20,7 +20,7 @@ ITEM_KERNEL(ask_for_pages, (WORLD_ARGUMENTS, __global const int* receiver_table,
   const float2 place = eye_numbers(seed, sample, 1u, pixel, 0u, STREAM_CAMERA).xy;
   float3 direction;
   EYE_OF(camera);
-  Hit hit = first_hit(&world, eye, pixel, place, seed, sample, STREAM_CAMERA, &direction);
+  Hit hit = first_hit(&world, eye, pixel, place, seed, sample, &direction);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
   float chance;
   const Band band = choose_eye_band(&world, ((float)sample + 0.5f) / (float)ASKING_SAMPLES, 1u, &chance);

@@ -31,7 +31,7 @@ ITEM_KERNEL(seen_texture, (WORLD_ARGUMENTS, DeviceCamera camera, uint count, __g
     const float2 place = ((float2)(i % PLACES_ALONG, i / PLACES_ALONG) + 0.5f) / PLACES_ALONG;
     float3 direction;
     EYE_OF(camera);
-    const Hit hit = first_hit(&world, eye, index, place, (uint2)(0u), 0u, STREAM_CAMERA, &direction);
+    const Hit hit = first_hit(&world, eye, index, place, (uint2)(0u), 0u, &direction);
     if (hit.primitive != NEPHROID_NO_PRIMITIVE)
       sum += texture_at_base(&world, path_from_eye(eye, direction), hit, index);
   }

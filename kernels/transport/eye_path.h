@@ -30,11 +30,17 @@ static inline void begin_on_lens(DeviceCamera* camera, uint pixel, float2 place,
 #endif
 }
 
+// The place in the pixel of a sample, and two more numbers. All layers look at the same places: where one no longer
+// sees a surface at its edge, another one sees what is behind it.
+static inline float4 place_numbers(uint2 seed, uint sample, uint pixel) {
+  return eye_numbers(seed, sample, 1u, pixel, 0u, STREAM_CAMERA);
+}
+
 // What the camera sees first in the direction of a place in a pixel. place: in [0, 1) x [0, 1). The camera moves to
 // where that path begins.
 static inline Hit first_hit(const World* world, DeviceCamera* camera, uint pixel, float2 place, uint2 seed, uint sample,
-                            uint stream, float3* direction) {
-  begin_on_lens(camera, pixel, place, seed, sample, 1u, stream);
+                            float3* direction) {
+  begin_on_lens(camera, pixel, place, seed, sample, 1u, STREAM_CAMERA);
   *direction = primary_direction(camera, (int)pixel % camera->width, (int)pixel / camera->width, place);
   Path path = path_from_eye(camera, *direction);
   return next_hit(world, &path);

@@ -174,6 +174,17 @@ TEST(MeasuredJob, StopsAtTheErrorItWasGiven) {
   }
 }
 
+TEST(MeasuredJob, AnErrorThatIsNotReachedEndsAsTheWorkDoes) {
+  preset::Preset preset = settings();
+  preset.stop.error = 1e-6;
+  const auto job = noisy(preset, nullptr, 20);
+  while (!job->finished()) {
+    job->advance();
+    EXPECT_LE(job->progress().fraction, 1);
+  }
+  EXPECT_EQ(job->progress().fraction, 1);
+}
+
 TEST(MeasuredJob, ProgressLooksAheadToTheError) {
   preset::Preset preset = settings();
   preset.stop.metric = preset::Stop::Metric::mse;

@@ -28,7 +28,7 @@ const DialogKind& kind_of_dialog(Question question) {
   const auto surround = [](const std::string& name) { return Command(command::OpenMap{name}); };
   const auto add = [](const std::string& name) { return Command(command::AddMesh{name}); };
   static const DialogKind kinds[] = {
-      {Question::open, "Open a preset", "", {".json"}},
+      {Question::open, "Open a preset or a scene", "", {".json", ".gltf", ".glb", ".xml", ".pbrt"}},
       {Question::open_history,
        "Open the history of a run",
        "",
@@ -72,6 +72,7 @@ bool choose_name(const char* hint, float width, std::string& name, const char* b
   ImGui::SetNextItemWidth(width);
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputTextWithHint("##file", hint, &name, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (entered && !replaces) ImGui::SetKeyboardFocusHere(-1); // a name that is refused can be typed anew
   ImGui::SameLine();
   ImGui::BeginDisabled(!possible);
   if (entered && replaces) ImGui::SetKeyboardFocusHere();
@@ -84,6 +85,7 @@ bool choose_name(const char* hint, float width, std::string& name, const char* b
 
 void Dialogs::begin(Workbench& workbench) {
   shown_ = workbench.questions().question();
+  message_before_ = workbench.messages().empty() ? 0 : workbench.messages().back().id;
   name_.clear();
   const DialogKind& kind = kind_of_dialog(shown_);
   if (*kind.proposal) name_ = proposed_name(workbench.preset(), kind.proposal);
@@ -124,6 +126,8 @@ void Dialogs::draw(Workbench& workbench, Commands& commands) {
     draw_record(commands);
   else
     draw_save(commands);
+  for (const Message& message : workbench.messages()) // those of the window are dimmed
+    if (message.error && message.id > message_before_) draw_wrapped(colour::error, message.line);
   if (!open) commands.push_back(command::Ask{Question::none});
   ImGui::EndPopup();
 }

@@ -95,21 +95,32 @@ void Workbench::carry_out(const command::Open& c) {
     if (const std::string preset_file = preset_of_run(file); !preset() && !preset_file.empty()) open(preset_file);
     return comparing_.carry_out(command::PinFile{file});
   }
-  const FileKind kind = kind_of(file);
-  if (preset() && kind == FileKind::dispersion) return document_.carry_out(command::LoadDispersion{file});
-  if (preset() && kind == FileKind::map) return document_.carry_out(command::OpenMap{file});
-  if (preset() && kind == FileKind::picture) {
-    if (engine::engine_of(*preset()).take_picture) return document_.take_picture(file);
-    if (document_.take_texture(file)) return;
-    return comparing_.carry_out(command::PinFile{file, true});
-  }
-  if (kind == FileKind::scene) return files_.import_scene(file);
-  if (preset() && kind == FileKind::mesh && has_scene(*preset())) return document_.read_mesh(file);
+  if (preset() && take(file)) return questions_.close();
+  if (kind_of(file) == FileKind::scene) return files_.import_scene(file);
   if (!c.sure && document_.modified()) { // a file that cannot be opened is reported at once, before any question
     refuse_other_kinds(file);
     preset::read_with_sweep(file);
   }
   if (!questions_.asks_first(c)) open(file);
+}
+
+/// Whether the file became part of the open preset, or is shown beside it.
+bool Workbench::take(const std::string& file) {
+  switch (kind_of(file)) {
+  case FileKind::dispersion: document_.carry_out(command::LoadDispersion{file}); return true;
+  case FileKind::map: document_.carry_out(command::OpenMap{file}); return true;
+  case FileKind::picture:
+    if (engine::engine_of(*preset()).take_picture)
+      document_.take_picture(file);
+    else if (!document_.take_texture(file))
+      comparing_.carry_out(command::PinFile{file, true});
+    return true;
+  case FileKind::mesh:
+    if (!has_scene(*preset())) return false;
+    document_.read_mesh(file);
+    return true;
+  default: return false;
+  }
 }
 
 void Workbench::carry_out(const command::New& c) {

@@ -75,6 +75,7 @@ public:
 
   /// The kind of the file decides which part takes it. May throw, unlike apply().
   void carry_out(const command::Open& c);
+  bool take(const std::string& file);
   void carry_out(const command::New& c);
 
 private:
