@@ -192,6 +192,27 @@ TEST_F(WorkbenchTest, AFileThatCannotBeOpenedLeavesWhatIsThereAlone) {
   EXPECT_TRUE(workbench.messages().empty());
 }
 
+TEST_F(WorkbenchTest, ADialogStaysUntilAFileIsTaken) {
+  open();
+  workbench.apply({command::Ask{Question::open}, command::Open{"no-such-file.obj.json"}});
+  EXPECT_EQ(workbench.questions().question(), Question::open) << "the name can be typed anew";
+  workbench.apply({command::Open{folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}});
+  EXPECT_EQ(workbench.questions().question(), Question::none);
+}
+
+TEST_F(WorkbenchTest, ANewPresetIsCalledAsItIsSavedAndItsRunGoesOn) {
+  open();
+  preset::Preset untitled = *workbench.preset();
+  untitled.name = "untitled";
+  workbench.apply({command::Edit{"name", untitled}});
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot() != nullptr; }));
+  const int made = runs.made;
+  workbench.apply({command::SavePreset{folder.path() / "table.json"}});
+  EXPECT_EQ(workbench.preset()->name, "table");
+  EXPECT_EQ(preset::read_preset((folder.path() / "table.json").string()).name, "table");
+  EXPECT_EQ(runs.made, made) << "a name changes no light";
+}
+
 TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen) {
   open();
   edit_z(2.5);

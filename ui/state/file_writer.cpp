@@ -49,6 +49,11 @@ void FileWriter::update() {
 void FileWriter::carry_out(const command::SavePreset& c) {
   const UndoStack* edits = document_.edits();
   if (!edits) return;
+  if (edits->current().name == "untitled") { // as a new preset is called
+    preset::Preset named = edits->current();
+    named.name = preset::stem_of(c.file);
+    document_.carry_out(command::Edit{"name", std::move(named)});
+  }
   const std::string parent = c.keep_parent ? parent_to_keep(*edits->in_file()) : std::string();
   const preset::FileText text = preset::file_text(*edits->in_file(), parent, c.file, edits->sweep());
   write_file_whole(c.file, text.json);

@@ -7,12 +7,15 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 namespace nephroid::ui {
 namespace {
 
-bool same_but_display(const preset::Preset& a, const preset::Preset& b) {
+/// Whether a run of the one is a run of the other: how it is shown and what it is called change no light.
+bool has_same_light(const preset::Preset& a, const preset::Preset& b) {
   preset::Preset same = a;
-  same.display = b.display;
+  std::tie(same.display, same.name, same.description) = std::tie(b.display, b.name, b.description);
   return same == b;
 }
 
@@ -103,8 +106,7 @@ void RunInHand::begin() {
 
 /// Takes an edit that changes no light; false where it is another one.
 bool RunInHand::take_display(const preset::Preset& now) {
-  if (lent_ || restart_wanted_ || !preset_ || now.display == preset_->display || !same_but_display(now, *preset_))
-    return false;
+  if (lent_ || restart_wanted_ || !preset_ || now == *preset_ || !has_same_light(now, *preset_)) return false;
   const bool is_shown = snapshot_origin_.preset == preset_;
   preset_ = std::make_shared<const preset::Preset>(now);
   if (is_shown) snapshot_origin_.preset = preset_;
@@ -142,7 +144,7 @@ void RunInHand::take_arrival() {
   const std::lock_guard lock(arrival_->mutex);
   if (!arrival_->run) return;
   newest_ = *std::exchange(arrival_->run, std::nullopt);
-  if (!same_but_display(*arrival_->preset, *preset_)) newest_.reference.reset(); // it belongs to another light
+  if (!has_same_light(*arrival_->preset, *preset_)) newest_.reference.reset(); // it belongs to another light
   if (!preset_->white && newest_.white) {
     preset::Preset fitted = *preset_;
     fitted.white = newest_.white;
