@@ -25,7 +25,7 @@ struct Reference {
 
 /// At most so much of the work's time is spent on measuring, the first and the last measurement excepted; and so much
 /// where an error may stop the run, which would otherwise go on for longer than measuring takes.
-inline constexpr double measuring_share = 0.04, measuring_share_to_stop = 0.25;
+inline constexpr double measuring_share = 0.04, measuring_share_to_stop = 0.5;
 
 /// Wraps a job. reference: null where there is none. began: when the run's wall clock started. Measurements come at
 /// times that grow by a fifth, and where stop.error is about to be reached; a step measures or works, never both, and

@@ -50,7 +50,7 @@ std::vector<Action> new_scene_actions() {
 std::vector<Action> file_actions() {
   std::vector<Action> actions = new_scene_actions();
   const std::vector<Action> others{
-      {"Open...", ctrl | ImGuiKey_O, "A preset file, or one of the shipped presets", always, ask<Question::open>},
+      {"Open...", ctrl | ImGuiKey_O, "A preset file or scene, or a shipped preset", always, ask<Question::open>},
       {"Open history...", ctrl | shift | ImGuiKey_O, "Pin an earlier run by its folder or its history.csv", always,
        ask<Question::open_history>},
       {"Open pictures...", 0, "Pictures of any program (.exr, .hdr, .png, ...), to look at and to compare", always,
