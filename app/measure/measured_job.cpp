@@ -218,6 +218,8 @@ private:
     return progress.whole && progress.work_seconds > last_seconds_ && progress.work_seconds >= next_;
   }
 
+  double share() const { return history_.target ? measuring_share_to_stop : measuring_share; }
+
   void measure() {
     const auto begin = Clock::now();
     const job::Snapshot snapshot = job_->snapshot();
@@ -229,7 +231,7 @@ private:
   bool may_note(const job::Progress& progress) const {
     return !history_.columns.empty() && progress.whole && progress.work_seconds > last_seconds_ &&
            progress.work_seconds >= wanted_ &&
-           progress.work_seconds >= (history_.measuring_seconds + noting_seconds_) / measuring_share;
+           progress.work_seconds >= (history_.measuring_seconds + noting_seconds_) / share();
   }
 
   void note(const job::Snapshot& snapshot) {
@@ -290,8 +292,7 @@ private:
 
   void plan_next() {
     const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(measurements_, 1));
-    const double affordable =
-        (history_.measuring_seconds + one) / (history_.target ? measuring_share_to_stop : measuring_share);
+    const double affordable = (history_.measuring_seconds + one) / share();
     wanted_ = last_seconds_ * spacing;
     if (const std::optional<double> at = target_seconds()) wanted_ = std::min(wanted_, *at);
     next_ = std::max(wanted_, affordable);

@@ -23,9 +23,10 @@ struct Reference {
   Pixels pixels() const { return {width, height, rgb, origin}; }
 };
 
-/// At most so much of the work's time is spent on measuring, the first and the last measurement excepted; and so much
-/// where an error may stop the run, which would otherwise go on for longer than measuring takes.
-inline constexpr double measuring_share = 0.04, measuring_share_to_stop = 0.5;
+/// Measuring takes at most this part of the time of work, the first and the last measurement excepted.
+inline constexpr double measuring_share = 0.04;
+/// The same where an error may stop the run: what it overshoots costs more than measuring does.
+inline constexpr double measuring_share_to_stop = 0.5;
 
 /// Wraps a job. reference: null where there is none. began: when the run's wall clock started. Measurements come at
 /// times that grow by a fifth, and where stop.error is about to be reached; a step measures or works, never both, and

@@ -133,8 +133,10 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
   const auto is_small = [&](std::size_t level) { return levels_[level].blocks.edge < first_.edge; };
   for (std::size_t level = chosen; level-- > 0 && is_small(level);) mix_in(spread_in_level(level));
   // Colours have more noise than light, so they come from larger blocks, and are judged over some of these.
+  const LayerEstimate before = mixed;
   for (std::size_t level = levels_.size() - 1; level-- > 0;)
     mix_in(recoloured(mixed, spread_in_level(level)), usual_radius + 2 * levels_[level].blocks.edge);
+  add_bias(before.rgb, before.draw, mixed.rgb, mixed.draw, first_.width, first_.height);
   caustics = std::move(mixed);
 }
 

@@ -64,40 +64,6 @@ std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int 
   return near;
 }
 
-/// Adds to the draw of what is spread how far light was moved. With r what spreading has changed of the picture and q
-/// what it has of the draw, r + q and r - q are what it has changed of two halves with noise of their own, so that
-/// around a pixel
-///
-///   M = sum of (r + q)(r - q)                    is that of the squares of the bias, give or take
-///   S^(1/2), S = sum of ((r + q)(r - q))^2,      and
-///   g^2 = M / (sum of r^2) / (1 + S / M^2)       the share of r^2 that it is, as far as it stands out,
-///
-/// and g r a draw of the bias: r is the bias and the noise that was taken away, which is no error of what is spread.
-void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
-              std::vector<float>& draw_spread, int width, int height) {
-  // r^2 + factor q^2, summed over R, G and B.
-  const auto changed = [&](std::size_t i, double factor) {
-    double sum = 0;
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-      const double r = static_cast<double>(rgb_spread[c]) - rgb[c],
-                   q = static_cast<double>(draw_spread[c]) - error_draw[c];
-      sum += r * r + factor * q * q;
-    }
-    return sum;
-  };
-  const SummedArea change(width, height, [&](std::size_t i) { return changed(i, 0); });
-  const SummedArea product(width, height, [&](std::size_t i) { return changed(i, -1); });
-  const SummedArea square(width, height, [&](std::size_t i) { return std::pow(changed(i, -1), 2); });
-  for_items(rgb.size() / 3, [&](std::size_t i) {
-    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double bias2 = product.sum(x, y, bias_radius), change2 = change.sum(x, y, bias_radius);
-    if (bias2 <= 0 || change2 <= 0) return;
-    const double scatter2 = std::max(square.sum(x, y, bias_radius), 0.0);
-    const auto g = static_cast<float>(std::sqrt(std::min(bias2 / change2 / (1 + scatter2 / (bias2 * bias2)), 1.0)));
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) draw_spread[c] += g * (rgb_spread[c] - rgb[c]);
-  });
-}
-
 /// How much of each pixel's light is better spread, 0..1. Spreading changes the picture m = truth + noise to m + r, and
 /// with a share s of the light to m + s r. The square of its error then grows by
 ///
@@ -189,6 +155,31 @@ std::vector<double> portions(std::span<const double> light, std::span<const floa
     portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_radius), 0.0) / near : 0;
   });
   return portion;
+}
+
+void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
+              std::vector<float>& draw_spread, int width, int height) {
+  // r^2 + factor q^2, summed over R, G and B.
+  const auto changed = [&](std::size_t i, double factor) {
+    double sum = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      const double r = static_cast<double>(rgb_spread[c]) - rgb[c],
+                   q = static_cast<double>(draw_spread[c]) - error_draw[c];
+      sum += r * r + factor * q * q;
+    }
+    return sum;
+  };
+  const SummedArea change(width, height, [&](std::size_t i) { return changed(i, 0); });
+  const SummedArea product(width, height, [&](std::size_t i) { return changed(i, -1); });
+  const SummedArea square(width, height, [&](std::size_t i) { return std::pow(changed(i, -1), 2); });
+  for_items(rgb.size() / 3, [&](std::size_t i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double bias2 = product.sum(x, y, bias_radius), change2 = change.sum(x, y, bias_radius);
+    if (bias2 <= 0 || change2 <= 0) return;
+    const double scatter2 = std::max(square.sum(x, y, bias_radius), 0.0);
+    const auto g = static_cast<float>(std::sqrt(std::min(bias2 / change2 / (1 + scatter2 / (bias2 * bias2)), 1.0)));
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) draw_spread[c] += g * (rgb_spread[c] - rgb[c]);
+  });
 }
 
 std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& scene, const scene::Bvh& bvh) {
@@ -299,16 +290,16 @@ void Smoothing::spread_light(std::vector<float>& rgb, std::vector<float>& error_
   keep_lamps({}, error_draw);
   const std::vector<double> light = light_of(rgb);
   const std::vector<double> portion = portions(light, error_draw, width_, height_);
-  const Plane wanted = domain_.plane([&](std::size_t i) { return portion[i] / (noise * noise); }); // n portions have
-                                                                                                   // noise 1 / sqrt(n)
-  // In even light a pixel at the border of a part takes less than it gives, and one a kernel away from there takes
-  // more. Sinkhorn and Knopp (1967) even that out, a step after the other, and still every pixel gives away what it
-  // has.
+  // n portions have the noise 1 / sqrt(n).
+  const Plane wanted = domain_.plane([&](std::size_t i) { return portion[i] / (noise * noise); });
   const auto kernels_of = [&](std::span<const double> of) {
     return domain_.kernels_of(domain_.plane([&](std::size_t i) { return of[i]; }), wanted);
   };
   SpreadKernels kernels = kernels_of(light);
   const std::array<Plane, 1> even = {domain_.plane([](std::size_t) { return 1; })};
+  // In even light a pixel at the border of a part takes less than it gives, and one a kernel away from there takes
+  // more. Sinkhorn and Knopp (1967) even that out, a step after the other, and still every pixel gives away what it
+  // has.
   Plane favour = even[0];
   for (int step = 0; step < balancing_steps; ++step) {
     domain_.scale(kernels, favour);

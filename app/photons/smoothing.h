@@ -24,6 +24,18 @@ std::vector<double> light_of(std::span<const float> rgb);
 /// Variance over light around each pixel, means of R, G and B: for light in equal portions, one portion; 0 in the dark.
 std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height);
 
+/// Adds to the draw of what is spread how far light was moved. With r what spreading has changed of the picture and q
+/// what it has of the draw, r + q and r - q are what it has changed of two halves with noise of their own, so that
+/// around a pixel
+///
+///   M = sum of (r + q)(r - q)                    is that of the squares of the bias, give or take
+///   S^(1/2), S = sum of ((r + q)(r - q))^2,      and
+///   g^2 = M / (sum of r^2) / (1 + S / M^2)       the share of r^2 that it is, as far as it stands out,
+///
+/// and g r a draw of the bias: r is the bias and the noise that was taken away, which is no error of what is spread.
+void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
+              std::vector<float>& draw_spread, int width, int height);
+
 class Smoothing {
 public:
   /// everywhere: as far as the noise asks for. where_it_helps: only the part for which the halves show a gain.

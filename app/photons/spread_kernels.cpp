@@ -22,7 +22,11 @@ using Words = std::int32_t __attribute__((vector_size(lanes * sizeof(std::int32_
 /// So many of these registers go through the pixels within reach together.
 constexpr std::size_t vectors = 2, group = vectors * lanes;
 
-constexpr std::size_t run = 16, block_pixels = 1 << 12, bits = 32;
+/// Of so many pixels in a row the largest kernel is known; a core takes so many at a time.
+constexpr std::size_t run = 16, block_pixels = 1 << 12;
+
+/// Of a word.
+constexpr std::size_t bits = 32;
 
 struct Offset {
   int x, y;
@@ -82,13 +86,10 @@ Floats where(Words may_give, std::uint32_t number, Floats values) {
 
 } // namespace
 
-Plane::Plane(std::size_t pixels, std::size_t margin, float value)
-    : margin_(margin), values_(pixels + 2 * margin + group) {
-  std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(margin), pixels, value);
-}
+Plane::Plane(std::size_t pixels, std::size_t margin) : margin_(margin), values_(pixels + 2 * margin + group) {}
 
 SpreadDomain::SpreadDomain(int width, int height, const std::function<bool(std::size_t, std::size_t)>& may_give)
-    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+    : width_(width), pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       margin_(static_cast<std::size_t>(reach) * static_cast<std::size_t>(width + 1)) {
   const std::size_t plane = pixels_ + group;
   may_give_.resize(words() * plane);
@@ -183,10 +184,10 @@ std::array<Plane, channels> SpreadDomain::collect(const SpreadKernels& kernels,
     float most = 0;
     for (int y = -reach; y <= reach; ++y) {
       const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(first) + std::ptrdiff_t{y} * width_ - reach,
-                           to = from + static_cast<std::ptrdiff_t>(run) + 2 * reach;
-      for (std::ptrdiff_t i = from; i < to + static_cast<std::ptrdiff_t>(run) - 1; i += run)
-        if (i >= 0 && i < static_cast<std::ptrdiff_t>(pixels_))
-          most = std::max(most, largest[static_cast<std::size_t>(i) / run]);
+                           to = from + static_cast<std::ptrdiff_t>(run) + 2 * reach; // one past the last
+      const auto begin = static_cast<std::size_t>(std::max<std::ptrdiff_t>(from, 0)) / run;
+      for (std::size_t r = begin; r < largest.size() && static_cast<std::ptrdiff_t>(r * run) < to; ++r)
+        most = std::max(most, largest[r]);
     }
     return most;
   };

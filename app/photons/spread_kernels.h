@@ -14,11 +14,11 @@
 
 namespace nephroid::photons {
 
-/// Values of the pixels of a picture, with zeros before and after them: nobody looks where there are none.
+/// Values of the pixels of a picture, with zeros before and after them, so that reads past either end find 0.
 class Plane {
 public:
   Plane() = default;
-  Plane(std::size_t pixels, std::size_t margin, float value = 0);
+  Plane(std::size_t pixels, std::size_t margin);
   /// value(pixel) is called on every core.
   template <class Value>
   Plane(std::size_t pixels, std::size_t margin, const Value& value) : Plane(pixels, margin) {
@@ -33,7 +33,8 @@ private:
   std::vector<float> values_;
 };
 
-/// Where each pixel's light goes, by how each pixel is favoured. The outermost ring gets less: no kernel jumps.
+/// Where each pixel's light goes. Of what it gives, a pixel takes a part in proportion to its favour. The outermost
+/// ring takes less, so that a kernel grows without a jump.
 struct SpreadKernels {
   Plane inside, end;       ///< [pixel], whole numbers: pixels before the outermost ring, and with it
   Plane ring_weight;       ///< [pixel], 0..1: of a pixel of that ring
@@ -54,15 +55,16 @@ public:
     return Plane(pixels_, margin_, value);
   }
 
-  /// Each kernel holds `wanted` of the light or reaches as far as any may, and has no scale yet.
+  /// Each kernel holds `wanted` (0 or more) of the light or reaches as far as any may, and has no scale yet.
   SpreadKernels kernels_of(const Plane& light, const Plane& wanted) const;
+  /// favour: above 0.
   void scale(SpreadKernels& kernels, const Plane& favour) const;
-  /// What the kernels bring each pixel of the given values, before it is favoured. channels: 1 or 3.
+  /// What the kernels bring each pixel of the given values, without its favour as a factor. channels: 1 or 3.
   template <std::size_t channels>
   std::array<Plane, channels> collect(const SpreadKernels& kernels, const std::array<Plane, channels>& given) const;
 
 private:
-  int width_ = 0, height_ = 0;
+  int width_ = 0;
   std::size_t pixels_ = 0, margin_ = 0;
   std::vector<std::uint32_t> may_give_; ///< [word][pixel]: a bit for each pixel within reach, nearest first
 

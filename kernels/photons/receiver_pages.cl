@@ -17,7 +17,7 @@ ITEM_KERNEL(ask_for_pages, (WORLD_ARGUMENTS, __global const int* receiver_table,
   const DeviceLook none = {NO_PAGE, 0.0f, 0.0f, 0};
   for (uint i = 0; i < ASKING_ENDS; ++i) looks[ASKING_ENDS * index + i] = none;
   const uint pixel = pixels[index / ASKING_SAMPLES], sample = index % ASKING_SAMPLES;
-  const float2 place = eye_numbers(seed, sample, 1u, pixel, 0u, STREAM_CAMERA).xy;
+  const float2 place = place_numbers(seed, sample, pixel).xy;
   float3 direction;
   EYE_OF(camera);
   Hit hit = first_hit(&world, eye, pixel, place, seed, sample, &direction);

@@ -52,7 +52,7 @@ ITEM_KERNEL(direct, (WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
   const LayerFilm unbent = LAYER_FILM(unbent, launch.frame), bent = LAYER_FILM(bent, launch.frame);
   const int column = place % camera.width, row = launch.first_row + place / camera.width,
             pixel = row * camera.width + column;
-  const float4 jitter = random4(launch.seed, launch.frame, (uint)pixel, 0u, STREAM_CAMERA);
+  const float4 jitter = place_numbers(launch.seed, launch.frame, (uint)pixel);
   const float3 direction = primary_direction(&camera, column, row, jitter.xy);
   Path first_way = path_from_eye(&camera, direction);
   const Hit first = next_hit(&world, &first_way);

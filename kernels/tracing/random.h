@@ -4,7 +4,8 @@
 #include "kernels/tracing/registers.h"
 
 // Streams separate numbers for different purposes with the same (iteration, index, dimension). No two kernels of a run
-// share one; the kernels of relighting (relight_*.cl) use the streams of the kernels that they replace.
+// share one but for the places in a pixel, which all take from STREAM_CAMERA (eye_path.h); the kernels of relighting
+// (relight_*.cl) use the streams of the kernels that they replace.
 #define STREAM_PHOTONS 0u                // photons.cl: index is the photon of a pass
 #define STREAM_CAMERA 1u                 // direct.cl, here and below: index is the pixel
 #define STREAM_CAMERA_LIGHT 2u           // places on area lights

@@ -30,8 +30,8 @@ static inline void begin_on_lens(DeviceCamera* camera, uint pixel, float2 place,
 #endif
 }
 
-// The place in the pixel of a sample, and two more numbers. All layers look at the same places: where one no longer
-// sees a surface at its edge, another one sees what is behind it.
+// The place in the pixel of a sample, and two more numbers. All layers of engine 1 look at the same places: where one
+// no longer sees a surface at its edge, another one sees what is behind it.
 static inline float4 place_numbers(uint2 seed, uint sample, uint pixel) {
   return eye_numbers(seed, sample, 1u, pixel, 0u, STREAM_CAMERA);
 }

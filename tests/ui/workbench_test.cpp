@@ -211,6 +211,7 @@ TEST_F(WorkbenchTest, ANewPresetIsCalledAsItIsSavedAndItsRunGoesOn) {
   EXPECT_EQ(workbench.preset()->name, "table");
   EXPECT_EQ(preset::read_preset((folder.path() / "table.json").string()).name, "table");
   EXPECT_EQ(runs.made, made) << "a name changes no light";
+  EXPECT_TRUE(workbench.run().snapshot_is_current());
 }
 
 TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen) {

@@ -123,6 +123,27 @@ TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less) {
   EXPECT_NEAR(error.variance, after.variance, 0.5 * after.variance);
 }
 
+TEST_F(Smoothing, keeps_power_in_pictures_of_any_size) {
+  // A corner is dark, so that its kernels are the largest.
+  for (const auto& [width, height] : {std::array{27, 19}, {50, 37}, {13, 10}, {1, 16}, {16, 1}}) {
+    std::mt19937 random(3);
+    std::poisson_distribution<int> many(20.0), few(0.05);
+    std::vector<float> rgb, draw;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        auto& half = y > height - 4 ? few : many;
+        const int a = half(random), b = half(random);
+        rgb.insert(rgb.end(), 3, static_cast<float>(a + b));
+        draw.insert(draw.end(), 3, static_cast<float>(a - b));
+      }
+    photons::Smoothing of(photons::Smoothing::view_of(scene, bvh), width, height,
+                          photons::Smoothing::Spread::everywhere);
+    const double before = sum(rgb);
+    of.spread(rgb, draw);
+    EXPECT_NEAR(sum(rgb) / before, 1, 1e-5) << width << " x " << height;
+  }
+}
+
 TEST_F(Smoothing, leaves_pixels_that_hold_enough_photons_alone) {
   Photons photons = scatter([](int, int) { return 400.0; }, 2);
   const std::vector<float> before = photons.rgb;

@@ -133,7 +133,7 @@ void Dialogs::draw(Workbench& workbench, Commands& commands) {
 }
 
 void Dialogs::draw_open(Commands& commands) {
-  if (choose_name("path of a preset file, or its name", em() * 41, name_, "Open", !name_.empty()))
+  if (choose_name("path of a preset or a scene, or a shipped preset's name", em() * 41, name_, "Open", !name_.empty()))
     commands.push_back(command::Open{name_});
   if (!ImGui::BeginTabBar("where")) return;
   if (ImGui::BeginTabItem("Shipped presets")) {

@@ -49,14 +49,17 @@ void FileWriter::update() {
 void FileWriter::carry_out(const command::SavePreset& c) {
   const UndoStack* edits = document_.edits();
   if (!edits) return;
-  if (edits->current().name == "untitled") { // as a new preset is called
+  const bool is_new = edits->current().name == "untitled"; // then it is called as its file
+  preset::Preset saved = *edits->in_file();
+  if (is_new) saved.name = preset::stem_of(c.file);
+  const std::string parent = c.keep_parent ? parent_to_keep(saved) : std::string();
+  const preset::FileText text = preset::file_text(saved, parent, c.file, edits->sweep());
+  write_file_whole(c.file, text.json);
+  if (is_new) {
     preset::Preset named = edits->current();
-    named.name = preset::stem_of(c.file);
+    named.name = saved.name;
     document_.carry_out(command::Edit{"name", std::move(named)});
   }
-  const std::string parent = c.keep_parent ? parent_to_keep(*edits->in_file()) : std::string();
-  const preset::FileText text = preset::file_text(*edits->in_file(), parent, c.file, edits->sweep());
-  write_file_whole(c.file, text.json);
   document_.mark_saved(c.file);
   services_.messages.note("saved " + c.file.string());
   if (!text.note.empty()) services_.messages.note(text.note);

@@ -49,9 +49,12 @@ public:
 private:
   /// A repeated message (of a panel that fails every frame) appears once.
   void say(bool error, std::string line, ErrorKind kind) {
-    if (std::any_of(messages_.begin(), messages_.end(),
-                    [&](const Message& m) { return m.line == line && m.error == error; }))
+    const auto same =
+        std::ranges::find_if(messages_, [&](const Message& m) { return m.line == line && m.error == error; });
+    if (same != messages_.end()) {
+      if (error) same->id = ++newest_; // it is refused again
       return;
+    }
     messages_.push_back({++newest_, error, std::move(line), Clock::now(), kind});
   }
 

@@ -12,7 +12,7 @@
 namespace nephroid::ui {
 namespace {
 
-/// Whether a run of the one is a run of the other: how it is shown and what it is called change no light.
+/// Whether two presets have the same light. They may be called and shown otherwise.
 bool has_same_light(const preset::Preset& a, const preset::Preset& b) {
   preset::Preset same = a;
   std::tie(same.display, same.name, same.description) = std::tie(b.display, b.name, b.description);
@@ -104,17 +104,18 @@ void RunInHand::begin() {
   status_ = worker_.status();
 }
 
-/// Takes an edit that changes no light; false where it is another one.
-bool RunInHand::take_display(const preset::Preset& now) {
+/// Takes an edit that changes no light; false where it does.
+bool RunInHand::take_same_light(const preset::Preset& now) {
   if (lent_ || restart_wanted_ || !preset_ || now == *preset_ || !has_same_light(now, *preset_)) return false;
   const bool is_shown = snapshot_origin_.preset == preset_;
+  if (now.name != preset_->name) name_ = snapshot_name_ = now.name;
   preset_ = std::make_shared<const preset::Preset>(now);
   if (is_shown) snapshot_origin_.preset = preset_;
   return true;
 }
 
 void RunInHand::adopt_or_start(const UndoStack& edits) {
-  if (lent_ || take_display(edits.current())) return;
+  if (lent_ || take_same_light(edits.current())) return;
   if (kernels_changed_ || !preset_ || !engine::adoptable(*preset_, edits.current())) return start(edits);
   take_over(edits);
   newest_.reference.reset(); // it belongs to the old light
@@ -122,7 +123,7 @@ void RunInHand::adopt_or_start(const UndoStack& edits) {
 }
 
 void RunInHand::follow_edit(const UndoStack& edits, bool live) {
-  if (take_display(edits.current())) return;
+  if (take_same_light(edits.current())) return;
   restart_wanted_ = true;
   gesture_lasts_ = live;
   snapshot_is_current_ = false;

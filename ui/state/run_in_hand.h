@@ -136,7 +136,7 @@ private:
   /// Returns what makes a run of the present preset on the worker's thread.
   std::function<std::unique_ptr<job::Job>()> maker();
   void take_over(const UndoStack& edits);
-  bool take_display(const preset::Preset& now);
+  bool take_same_light(const preset::Preset& now);
   bool loads_the_same() const;
   void begin();
   bool take_snapshot();

@@ -104,7 +104,6 @@ void Workbench::carry_out(const command::Open& c) {
   if (!questions_.asks_first(c)) open(file);
 }
 
-/// Whether the file became part of the open preset, or is shown beside it.
 bool Workbench::take(const std::string& file) {
   switch (kind_of(file)) {
   case FileKind::dispersion: document_.carry_out(command::LoadDispersion{file}); return true;
@@ -117,7 +116,7 @@ bool Workbench::take(const std::string& file) {
     return true;
   case FileKind::mesh:
     if (!has_scene(*preset())) return false;
-    document_.read_mesh(file);
+    document_.carry_out(command::AddMesh{file});
     return true;
   default: return false;
   }

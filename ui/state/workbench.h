@@ -75,10 +75,11 @@ public:
 
   /// The kind of the file decides which part takes it. May throw, unlike apply().
   void carry_out(const command::Open& c);
-  bool take(const std::string& file);
   void carry_out(const command::New& c);
 
 private:
+  /// Makes the file a part of the open preset, or shows it beside it; false where neither goes.
+  bool take(const std::string& file);
   void carry_out_with_follow_ups(const Command& command);
   void carry_out_follow_ups();
   void begin(preset::WithSweep preset);
