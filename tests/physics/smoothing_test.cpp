@@ -193,11 +193,17 @@ TEST(ThroughGlass, RunsGoOnConverging) {
     EXPECT_LT(after.glass, 2.0 / 16 * before.glass) << name;
     EXPECT_EQ(after.elsewhere, before.elsewhere) << name;
   }
-  // The run's own estimate knows: the squares of its draw are those of the error.
-  std::vector<float> draw = many.picture->error_draw;
-  const Errors drawn = errors_of(draw, std::vector<float>(draw.size(), 0.0f), glass),
-               error = errors_of(many.picture->rgb, truth.picture->rgb, glass);
-  EXPECT_NEAR(drawn.glass / error.glass, 1, 0.3);
+  // The run's own estimate knows: the squares of its draw are those of the error, but for a third. Work goes where the
+  // draw is large, and a pixel whose draw is small by chance keeps it: 40 seeds have .66 +- .02, single ones .4 to 1.
+  const std::vector<float> zero(truth.picture->rgb.size(), 0.0f);
+  double drawn = 0, error = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const job::Snapshot one = test::render(ball(64, seed));
+    drawn += errors_of(one.picture->error_draw, zero, glass).glass;
+    error += errors_of(one.picture->rgb, truth.picture->rgb, glass).glass -
+             errors_of(truth.picture->error_draw, zero, glass).glass;
+  }
+  EXPECT_NEAR(drawn / error, 0.66, 0.2);
 }
 
 /// The same with caustics, photon maps and all that a run decides by what it measures.
