@@ -184,7 +184,7 @@ std::array<Plane, channels> SpreadDomain::collect(const SpreadKernels& kernels,
     float most = 0;
     for (int y = -reach; y <= reach; ++y) {
       const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(first) + std::ptrdiff_t{y} * width_ - reach,
-                           to = from + static_cast<std::ptrdiff_t>(run) + 2 * reach; // one past the last
+                           to = from + static_cast<std::ptrdiff_t>(run + 2 * std::size_t{reach}); // one past the last
       const auto begin = static_cast<std::size_t>(std::max<std::ptrdiff_t>(from, 0)) / run;
       for (std::size_t r = begin; r < largest.size() && static_cast<std::ptrdiff_t>(r * run) < to; ++r)
         most = std::max(most, largest[r]);
