@@ -291,8 +291,8 @@ private:
   }
 
   void plan_next() {
-    const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(measurements_, 1));
-    const double affordable = (history_.measuring_seconds + one) / share();
+    const double mean_cost = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(measurements_, 1));
+    const double affordable = (history_.measuring_seconds + mean_cost) / share();
     wanted_ = last_seconds_ * spacing;
     if (const std::optional<double> at = target_seconds()) wanted_ = std::min(wanted_, *at);
     next_ = std::max(wanted_, affordable);

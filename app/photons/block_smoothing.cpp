@@ -115,7 +115,7 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
     return between(levels_[level].blocks, spread[level]);
   };
   LayerEstimate mixed = spread_in_level(chosen);
-  const auto mix_in = [&](const LayerEstimate& estimate, int radius = usual_radius) {
+  const auto mix_in = [&](const LayerEstimate& estimate, int radius = error_radius) {
     mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb, mixed.draw,
         radius);
   };
@@ -135,7 +135,7 @@ void BlockSmoothing::spread_light(LayerEstimate& caustics) {
   // Colours have more noise than light, so they come from larger blocks, and are judged over some of these.
   const LayerEstimate before = mixed;
   for (std::size_t level = levels_.size() - 1; level-- > 0;)
-    mix_in(recoloured(mixed, spread_in_level(level)), usual_radius + 2 * levels_[level].blocks.edge);
+    mix_in(recoloured(mixed, spread_in_level(level)), error_radius + 2 * levels_[level].blocks.edge);
   add_bias(before.rgb, before.draw, mixed.rgb, mixed.draw, first_.width, first_.height);
   caustics = std::move(mixed);
 }

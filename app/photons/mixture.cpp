@@ -39,12 +39,10 @@ void keep_light(std::span<const float> own, std::span<const float> own_draw, int
     // The mean of the factors around has no edges where parts end.
     const SummedArea factors(width, height, [&](std::size_t i) { return factor(lacks, i); });
     const SummedArea factors_of_draw(width, height, [&](std::size_t i) { return factor(lacks_of_draw, i); });
-    for_ranges(mixed.size() / 3, std::size_t{1} << 12, [&](std::size_t, Range range) {
-      for (std::size_t i = range.begin; i < range.end; ++i) {
-        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-        rgb[at(i)] += static_cast<float>(carrier(i) * factors.mean(x, y, part_radius));
-        draw[at(i)] += static_cast<float>(carrier(i) * factors_of_draw.mean(x, y, part_radius));
-      }
+    for_items(mixed.size() / 3, [&](std::size_t i) {
+      const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+      rgb[at(i)] += static_cast<float>(carrier(i) * factors.mean(x, y, part_radius));
+      draw[at(i)] += static_cast<float>(carrier(i) * factors_of_draw.mean(x, y, part_radius));
     });
   }
 }
@@ -73,10 +71,9 @@ private:
     std::vector<float> squares(usual_.size());
     for (std::size_t c = 0; c < 3; ++c) {
       const SummedArea sums(width_, height_, [&](std::size_t i) { return values[3 * i + c]; });
-      for_ranges(squares.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
-        for (std::size_t i = range.begin; i < range.end; ++i)
-          squares[i] += static_cast<float>(
-              std::pow(sums.mean(static_cast<int>(i) % width_, static_cast<int>(i) / width_, radius), 2));
+      for_items(squares.size(), [&](std::size_t i) {
+        squares[i] += static_cast<float>(
+            std::pow(sums.mean(static_cast<int>(i) % width_, static_cast<int>(i) / width_, radius), 2));
       });
     }
     return squares;
@@ -87,7 +84,7 @@ private:
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
     const auto along = [](const std::vector<float>& from, std::size_t count, std::size_t step, std::size_t lines,
                           std::size_t line_step) {
-      constexpr std::size_t radius = usual_radius;
+      constexpr std::size_t radius = error_radius;
       std::vector<float> largest(from.size());
       for_blocks(lines, [&](std::size_t line) {
         const std::size_t begin = line * line_step;
@@ -144,17 +141,15 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
   });
   const SummedArea squares(
       width, height, [&](std::size_t i) { return relative_to_light(i, [](std::size_t, double r) { return r * r; }); });
-  for_ranges(light.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-      const double scatter = std::sqrt(std::max(scatters.sum(x, y, radius), 0.0));
-      const double gain = -slopes.sum(x, y, radius) - scatter, square = squares.sum(x, y, radius);
-      if (gain <= 0 || square <= 0) continue;
-      const auto weight = static_cast<float>(std::min(gain / square, 1.0));
-      for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-        rgb[c] += weight * (estimate.rgb[c] - rgb[c]);
-        error_draw[c] += weight * (static_cast<float>(draw_of(c)) - error_draw[c]);
-      }
+  for_items(light.size(), [&](std::size_t i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double scatter = std::sqrt(std::max(scatters.sum(x, y, radius), 0.0));
+    const double gain = -slopes.sum(x, y, radius) - scatter, square = squares.sum(x, y, radius);
+    if (gain <= 0 || square <= 0) return;
+    const auto weight = static_cast<float>(std::min(gain / square, 1.0));
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      rgb[c] += weight * (estimate.rgb[c] - rgb[c]);
+      error_draw[c] += weight * (static_cast<float>(draw_of(c)) - error_draw[c]);
     }
   });
 }
@@ -190,7 +185,7 @@ std::vector<float> mix_before(const Estimate& before, int width, int height, std
   std::vector<float> with_bias = error_draw;
   for (std::size_t i = 0; i < light.size(); ++i) {
     const double bias_square =
-        std::max(beyond.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, usual_radius), 0.0);
+        std::max(beyond.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, error_radius), 0.0);
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) { // no more than a pixel was moved
       const double bias = std::min(bias_square, std::pow(static_cast<double>(rgb[c]) - own[c], 2));
       with_bias[c] = static_cast<float>(std::copysign(std::sqrt(std::pow(error_draw[c], 2) + bias), error_draw[c]));

@@ -27,14 +27,14 @@ struct Estimate {
 double least_light(std::span<const double> light);
 
 /// The radius around a pixel, in pixels, of the means of its errors.
-constexpr int usual_radius = 8;
+constexpr int error_radius = 8;
 
 /// Mixes the picture b in rgb, with a draw of its noise in error_draw (job::Picture::error_draw), with the estimate;
 /// both become those of the mixture. All are linear sRGB, [pixel][3]. picture and picture_draw are p and d.
-/// light[pixel] is the light that the squares of errors are divided by. Weights are 0..1. radius: as usual_radius.
+/// light[pixel] is the light that the squares of errors are divided by. Weights are 0..1. radius: as error_radius.
 void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate,
          std::span<const double> light, int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw,
-         int radius = usual_radius);
+         int radius = error_radius);
 
 /// Mixes a picture with that of an animation's frame before, whose draw is of other random numbers; rgb and error_draw
 /// become those of the mixture. The places of `before` where it is NaN count for nothing. A difference beyond the

@@ -22,11 +22,10 @@ using Words = std::int32_t __attribute__((vector_size(lanes * sizeof(std::int32_
 /// So many of these registers go through the pixels within reach together.
 constexpr std::size_t vectors = 2, group = vectors * lanes;
 
-/// Of so many pixels in a row the largest kernel is known; a core takes so many at a time.
+/// Pixels of which SpreadKernels knows the largest kernel, and those that a core takes at a time: whole runs.
 constexpr std::size_t run = 16, block_pixels = 1 << 12;
 
-/// Of a word.
-constexpr std::size_t bits = 32;
+constexpr std::size_t word_bits = 32;
 
 struct Offset {
   int x, y;
@@ -54,7 +53,7 @@ const Reach& within_reach() {
   return sorted;
 }
 
-std::size_t words() { return (within_reach().offsets.size() + bits - 1) / bits; }
+std::size_t words() { return (within_reach().offsets.size() + word_bits - 1) / word_bits; }
 
 /// What to add to a pixel's number.
 std::vector<std::ptrdiff_t> steps(int width) {
@@ -70,7 +69,7 @@ Vector load(const Value* from) {
   return vector;
 }
 
-void keep(const Floats& of, std::size_t first, std::size_t end, Plane& in) {
+void store(const Floats& of, std::size_t first, std::size_t end, Plane& in) {
   for (std::size_t lane = 0; lane < lanes && first + lane < end; ++lane) in[first + lane] = of[lane];
 }
 
@@ -80,7 +79,7 @@ bool any(Words of) {
 
 /// The values where may_give has the bit of the pixel `number` of those within reach, else 0.
 Floats where(Words may_give, std::uint32_t number, Floats values) {
-  const Words is_set = (may_give & static_cast<std::int32_t>(std::uint32_t{1} << number % bits)) != 0;
+  const Words is_set = (may_give & static_cast<std::int32_t>(std::uint32_t{1} << number % word_bits)) != 0;
   return is_set ? values : Floats{};
 }
 
@@ -101,7 +100,8 @@ SpreadDomain::SpreadDomain(int width, int height, const std::function<bool(std::
         if (x < 0 || x >= width || y < 0 || y >= height) continue;
         const std::size_t j =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        if (j == i || may_give(i, j)) may_give_[number / bits * plane + i] |= std::uint32_t{1} << (number % bits);
+        if (j == i || may_give(i, j))
+          may_give_[number / word_bits * plane + i] |= std::uint32_t{1} << (number % word_bits);
       }
   });
 }
@@ -115,7 +115,7 @@ std::vector<const std::uint32_t*> SpreadDomain::words_of_pixels() const {
 }
 
 SpreadKernels SpreadDomain::kernels_of(const Plane& light, const Plane& wanted) const {
-  SpreadKernels kernels{zeros(), zeros(), zeros(), zeros(), zeros()};
+  SpreadKernels kernels{zeros(), zeros(), zeros(), zeros(), zeros(), std::vector<float>((pixels_ + run - 1) / run)};
   const std::vector<std::ptrdiff_t> step = steps(width_);
   const std::vector<const std::uint32_t*> may_give = words_of_pixels();
   for_ranges(pixels_, block_pixels, [&](std::size_t, Range range) {
@@ -134,16 +134,18 @@ SpreadKernels SpreadDomain::kernels_of(const Plane& light, const Plane& wanted) 
         inside = grows ? end : inside;
         end = grows ? Floats{} + static_cast<float>(ring_end) : end;
         for (; number < ring_end; ++number)
-          ring +=
-              where(grows & load<Words>(may_give[number / bits] + i), number, load<Floats>(light_at + step[number]));
+          ring += where(grows & load<Words>(may_give[number / word_bits] + i), number,
+                        load<Floats>(light_at + step[number]));
       }
       Floats weight = (want - held) / ring;
       weight = weight < 0 ? Floats{} : weight > 1 ? Floats{} + 1 : weight;
       weight = ((inside > 0) & (ring > 0)) ? weight : Floats{} + 1;
-      keep(inside, i, range.end, kernels.inside);
-      keep(end, i, range.end, kernels.end);
-      keep(weight, i, range.end, kernels.ring_weight);
+      store(inside, i, range.end, kernels.inside);
+      store(end, i, range.end, kernels.end);
+      store(weight, i, range.end, kernels.ring_weight);
     }
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      kernels.largest[i / run] = std::max(kernels.largest[i / run], kernels.end[i]);
   });
   return kernels;
 }
@@ -162,10 +164,11 @@ void SpreadDomain::scale(SpreadKernels& kernels, const Plane& favour) const {
       for (std::uint32_t number = 0; number < past; ++number) {
         const Floats k = Floats{} + static_cast<float>(number);
         const Floats part = k < inside ? Floats{} + 1 : k < end ? weight : Floats{};
-        sum += where(load<Words>(may_give[number / bits] + i), number, part * load<Floats>(favour_at + step[number]));
+        sum +=
+            where(load<Words>(may_give[number / word_bits] + i), number, part * load<Floats>(favour_at + step[number]));
       }
-      keep(1 / sum, i, range.end, kernels.scale);
-      keep(weight / sum, i, range.end, kernels.ring_scale);
+      store(1 / sum, i, range.end, kernels.scale);
+      store(weight / sum, i, range.end, kernels.ring_scale);
     }
   });
 }
@@ -177,9 +180,7 @@ std::array<Plane, channels> SpreadDomain::collect(const SpreadKernels& kernels,
   collected.fill(zeros());
   const std::vector<std::ptrdiff_t> step = steps(width_);
   const std::vector<const std::uint32_t*> may_give = words_of_pixels();
-  // The largest kernel of each run of pixels: few are large where photons are many.
-  std::vector<float> largest((pixels_ + run - 1) / run);
-  for (std::size_t i = 0; i < pixels_; ++i) largest[i / run] = std::max(largest[i / run], kernels.end[i]);
+  const std::vector<float>& largest = kernels.largest; // few are large where photons are many
   const auto largest_about = [&](std::size_t first) {
     float most = 0;
     for (int y = -reach; y <= reach; ++y) {
@@ -210,12 +211,12 @@ std::array<Plane, channels> SpreadDomain::collect(const SpreadKernels& kernels,
           const std::ptrdiff_t i = from[number] + static_cast<std::ptrdiff_t>(v * lanes);
           const Floats within = k < load<Floats>(end + i) ? load<Floats>(ring_scale + i) : Floats{},
                        weight = k < load<Floats>(inside + i) ? load<Floats>(scale + i) : within;
-          const Floats part = where(load<Words>(bit_words[number / bits] + j + v * lanes), number, weight);
+          const Floats part = where(load<Words>(bit_words[number / word_bits] + j + v * lanes), number, weight);
           for (std::size_t c = 0; c < channels; ++c) sum[c][v] += part * load<Floats>(value[c] + i);
         }
       }
       for (std::size_t c = 0; c < channels; ++c)
-        for (std::size_t v = 0; v < vectors; ++v) keep(sum[c][v], j + v * lanes, range.end, collected[c]);
+        for (std::size_t v = 0; v < vectors; ++v) store(sum[c][v], j + v * lanes, range.end, collected[c]);
     }
   });
   return collected;

@@ -36,9 +36,10 @@ private:
 /// Where each pixel's light goes. Of what it gives, a pixel takes a part in proportion to its favour. The outermost
 /// ring takes less, so that a kernel grows without a jump.
 struct SpreadKernels {
-  Plane inside, end;       ///< [pixel], whole numbers: pixels before the outermost ring, and with it
-  Plane ring_weight;       ///< [pixel], 0..1: of a pixel of that ring
-  Plane scale, ring_scale; ///< [pixel]: factors of a pixel inside and of that ring; all that is given is then 1
+  Plane inside, end;          ///< [pixel], whole numbers: pixels before the outermost ring, and with it
+  Plane ring_weight;          ///< [pixel], 0..1: of a pixel of that ring
+  Plane scale, ring_scale;    ///< [pixel]: factors of a pixel inside and of that ring; all that is given is then 1
+  std::vector<float> largest; ///< the largest `end` of each 16 pixels in a row
 };
 
 /// Which pixels the light of a pixel may be spread over.
@@ -49,7 +50,6 @@ public:
   SpreadDomain(int width, int height, const std::function<bool(std::size_t, std::size_t)>& may_give);
   static std::uint64_t bytes_per_pixel();
 
-  std::size_t pixels() const { return pixels_; }
   template <class Value>
   Plane plane(const Value& value) const {
     return Plane(pixels_, margin_, value);

@@ -100,16 +100,14 @@ private:
     const job::Picture& before = *before_;
     auto picture = std::make_shared<job::Picture>(own);
     const auto mix = [&](const std::vector<float>& from, std::vector<float>& into) {
-      for_ranges(taps_.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          if (!(passes_[i] > 0)) continue;
-          const auto part = static_cast<float>(passes_[i] / (passes_[i] + own_passes));
-          for (std::size_t c = 0; c < 3; ++c) {
-            float there = 0;
-            for (std::size_t tap = 0; tap < taps_[i].weights.size(); ++tap)
-              there += taps_[i].weights[tap] * from[std::size_t{3} * taps_[i].pixels[tap] + c];
-            into[3 * i + c] += part * (there - into[3 * i + c]);
-          }
+      for_items(taps_.size(), [&](std::size_t i) {
+        if (!(passes_[i] > 0)) return;
+        const auto part = static_cast<float>(passes_[i] / (passes_[i] + own_passes));
+        for (std::size_t c = 0; c < 3; ++c) {
+          float there = 0;
+          for (std::size_t tap = 0; tap < taps_[i].weights.size(); ++tap)
+            there += taps_[i].weights[tap] * from[std::size_t{3} * taps_[i].pixels[tap] + c];
+          into[3 * i + c] += part * (there - into[3 * i + c]);
         }
       });
     };
