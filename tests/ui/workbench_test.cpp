@@ -196,6 +196,10 @@ TEST_F(WorkbenchTest, ADialogStaysUntilAFileIsTaken) {
   open();
   workbench.apply({command::Ask{Question::open}, command::Open{"no-such-file.obj.json"}});
   EXPECT_EQ(workbench.questions().question(), Question::open) << "the name can be typed anew";
+  const Message once = workbench.messages().back();
+  workbench.apply({command::Open{"no-such-file.obj.json"}});
+  EXPECT_EQ(workbench.messages().back().id, once.id) << "it is one message, and can be dismissed";
+  EXPECT_GT(workbench.messages().back().said, once.said) << "the dialog says it again";
   workbench.apply({command::Open{folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}});
   EXPECT_EQ(workbench.questions().question(), Question::none);
 }
@@ -206,12 +210,13 @@ TEST_F(WorkbenchTest, ANewPresetIsCalledAsItIsSavedAndItsRunGoesOn) {
   untitled.name = "untitled";
   workbench.apply({command::Edit{"name", untitled}});
   ASSERT_TRUE(until([&] { return workbench.run().snapshot() != nullptr; }));
-  const int made = runs.made;
+  const int runs_before = runs.made;
   workbench.apply({command::SavePreset{folder.path() / "table.json"}});
   EXPECT_EQ(workbench.preset()->name, "table");
   EXPECT_EQ(preset::read_preset((folder.path() / "table.json").string()).name, "table");
-  EXPECT_EQ(runs.made, made) << "a name changes no light";
+  EXPECT_EQ(runs.made, runs_before) << "a name changes no light";
   EXPECT_TRUE(workbench.run().snapshot_is_current());
+  EXPECT_FALSE(workbench.edits()->modified());
 }
 
 TEST_F(WorkbenchTest, ASavedPresetReadsBackAsWhatWasOnTheScreen) {

@@ -85,7 +85,8 @@ bool choose_name(const char* hint, float width, std::string& name, const char* b
 
 void Dialogs::begin(Workbench& workbench) {
   shown_ = workbench.questions().question();
-  message_before_ = workbench.messages().empty() ? 0 : workbench.messages().back().id;
+  said_before_ = 0;
+  for (const Message& message : workbench.messages()) said_before_ = std::max(said_before_, message.said);
   name_.clear();
   const DialogKind& kind = kind_of_dialog(shown_);
   if (*kind.proposal) name_ = proposed_name(workbench.preset(), kind.proposal);
@@ -127,7 +128,7 @@ void Dialogs::draw(Workbench& workbench, Commands& commands) {
   else
     draw_save(commands);
   for (const Message& message : workbench.messages()) // those of the window are dimmed
-    if (message.error && message.id > message_before_) draw_wrapped(colour::error, message.line);
+    if (message.error && message.said > said_before_) draw_wrapped(colour::error, message.line);
   if (!open) commands.push_back(command::Ask{Question::none});
   ImGui::EndPopup();
 }

@@ -29,7 +29,7 @@ private:
   FileList files_;
   std::string parent_; ///< that a saved preset may keep; empty: none
   bool keep_parent_ = true;
-  std::uint64_t message_before_ = 0; ///< the newest when the dialog was opened
+  std::uint64_t said_before_ = 0; ///< Message::said of the last one before the dialog was opened
 };
 
 } // namespace nephroid::ui

@@ -16,6 +16,7 @@ struct Message {
   std::string line;
   std::chrono::steady_clock::time_point since;
   ErrorKind kind = ErrorKind::failed; ///< the kind, where it is an error
+  std::uint64_t said = 0;             ///< rises from 1, each time that any message is said
 };
 
 class Messages {
@@ -51,14 +52,14 @@ private:
   void say(bool error, std::string line, ErrorKind kind) {
     const auto same =
         std::ranges::find_if(messages_, [&](const Message& m) { return m.line == line && m.error == error; });
-    if (same != messages_.end()) {
-      if (error) same->id = ++newest_; // it is refused again
-      return;
-    }
-    messages_.push_back({++newest_, error, std::move(line), Clock::now(), kind});
+    ++said_;
+    if (same != messages_.end())
+      same->said = said_;
+    else
+      messages_.push_back({++newest_, error, std::move(line), Clock::now(), kind, said_});
   }
 
-  std::uint64_t newest_ = 0;
+  std::uint64_t newest_ = 0, said_ = 0;
   std::vector<Message> messages_;
 };
 

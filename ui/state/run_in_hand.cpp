@@ -108,7 +108,9 @@ void RunInHand::begin() {
 bool RunInHand::take_same_light(const preset::Preset& now) {
   if (lent_ || restart_wanted_ || !preset_ || now == *preset_ || !has_same_light(now, *preset_)) return false;
   const bool is_shown = snapshot_origin_.preset == preset_;
-  if (now.name != preset_->name) name_ = snapshot_name_ = now.name;
+  if (const std::string& before = preset_->name; now.name != before && !before.empty())
+    for (std::string* name : {&name_, &snapshot_name_}) // which may go on with a frame and an edit
+      if (name->starts_with(before)) name->replace(0, before.size(), now.name);
   preset_ = std::make_shared<const preset::Preset>(now);
   if (is_shown) snapshot_origin_.preset = preset_;
   return true;
