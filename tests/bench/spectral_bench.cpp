@@ -76,7 +76,7 @@ void picture(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(job->snapshot());
 }
 
-/// Smooths a made picture of 512 x 512 of a floor on which a hundredth of range(0) photons fell in each pixel.
+/// Smooths a made picture of 512 x 512 in which range(0) / 100 photons fell in each pixel.
 void smoothing(benchmark::State& state) {
   preset::Preset p = preset::read_preset("spectral/thesis/bunny");
   p.scene.camera.resolution = {512, 512};
