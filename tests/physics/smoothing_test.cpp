@@ -193,17 +193,26 @@ TEST(ThroughGlass, RunsGoOnConverging) {
     EXPECT_LT(after.glass, 2.0 / 16 * before.glass) << name;
     EXPECT_EQ(after.elsewhere, before.elsewhere) << name;
   }
-  // The run's own estimate knows: the squares of its draw are those of the error, but for a third. Work goes where the
-  // draw is large, and a pixel whose draw is small by chance keeps it: 40 seeds have .66 +- .02, single ones .4 to 1.
+  // The run's own estimate is that of its noise: of what seeds differ by. It does not know what a part of the spectrum
+  // gets wrong that ends with its leader (docs/notebook/eye-paths.md); here, in glass that disperses much, that is a
+  // third of the error's square. 24 seeds have 1.02 of the variance; eight .82, as it is of few pixels.
+  constexpr std::uint64_t seeds = 24;
   const std::vector<float> zero(truth.picture->rgb.size(), 0.0f);
-  double drawn = 0, error = 0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const job::Snapshot one = test::render(ball(64, seed));
-    drawn += errors_of(one.picture->error_draw, zero, glass).glass;
-    error += errors_of(one.picture->rgb, truth.picture->rgb, glass).glass -
-             errors_of(truth.picture->error_draw, zero, glass).glass;
+  std::vector<double> sum(zero.size());
+  double drawn = 0, variance = 0, error = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const job::Picture one = *test::render(ball(64, seed)).picture;
+    drawn += errors_of(one.error_draw, zero, glass).glass;
+    variance += errors_of(one.rgb, zero, glass).glass;
+    error +=
+        errors_of(one.rgb, truth.picture->rgb, glass).glass - errors_of(truth.picture->error_draw, zero, glass).glass;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += one.rgb[i];
   }
-  EXPECT_NEAR(drawn / error, 0.66, 0.2);
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    if (glass[i / 3]) variance -= sum[i] * sum[i] / seeds;
+  variance *= double(seeds) / (seeds - 1);
+  EXPECT_NEAR(drawn / variance, 1, 0.25);
+  EXPECT_NEAR(drawn / error, 0.7, 0.2);
 }
 
 /// The same with caustics, photon maps and all that a run decides by what it measures.
