@@ -30,7 +30,7 @@ private:
 };
 
 TEST(Actions, HaveNamesKeysAndEffectsOfTheirOwn) {
-  // What is selected goes first, and only then these mean something else (run_shortcuts).
+  // What is selected goes first, and only then these mean something else (Shortcuts).
   const std::set<int> shared{ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow};
   std::set<int> shortcuts;
   for (const Action& action : actions())

@@ -304,6 +304,16 @@ TEST_F(ParametersTest, TabTakesTheNumberWhereThereIsNoOther) {
   EXPECT_EQ(at(fov), 33);
 }
 
+TEST_F(ParametersTest, CtrlSSavesWhatIsBeingTyped) {
+  open();
+  begin_typing(fov, "33");
+  press(ImGuiKey_S, ImGuiMod_Ctrl);
+  frames(2);
+  ASSERT_TRUE(until_files_are_done());
+  EXPECT_EQ(at(fov), 33);
+  EXPECT_EQ(preset::read_preset(folder.path() / "test.json").scene.camera.fov_deg, 33);
+}
+
 TEST_F(ParametersTest, ItemsOfAListAreAddedCopiedMovedAndRemoved) {
   open();
   const std::string before = text(), lights = "/scene/lights", objects = "/scene/objects";

@@ -163,6 +163,25 @@ TEST_F(Select, AnArrowMovesTheBall) {
   EXPECT_EQ(selected(), ball);
 }
 
+TEST_F(Select, EscapeTakesADragBack) {
+  open();
+  select(ball);
+  const Point tip = handle(1);
+  press_at(tip);
+  press(ImGuiKey_Escape); // nothing has moved: what was done before stays
+  let_go();
+  EXPECT_EQ(undo(), "");
+  press_at(tip);
+  move({tip[0] + 40, tip[1]});
+  ASSERT_EQ(undo(), "move ball");
+  press(ImGuiKey_Escape);
+  EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
+  move({tip[0] + 80, tip[1]});
+  let_go();
+  EXPECT_EQ(*workbench.preset(), workbench.edits()->opened()) << "it was let go";
+  EXPECT_EQ(selected(), ball);
+}
+
 TEST_F(Select, CtrlSnapsADrag) {
   open();
   select(ball);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -34,7 +35,7 @@ bool is_enabled(const Palette::Entry& entry, const Context& context) {
 std::span<const MouseHabit> mouse_habits() {
   static const MouseHabit habits[] = {
       {"Click", "Select the object or light that is there, or nothing"},
-      {"Left drag on a handle", "Move, turn or scale what is selected; Ctrl: in steps, or freely with Snap"},
+      {"Left drag on a handle", "Move, turn or scale; Ctrl: in steps, or freely with Snap; Esc: take it back"},
       {"Left drag", "Orbit: the scene turns with the mouse"},
       {"Middle or Shift+left drag", "Pan: move the camera sideways and up"},
       {"Wheel, or right drag", "Distance of the camera"},
@@ -96,10 +97,13 @@ void draw_toolbar(const Context& context, WidgetPlaces& places) {
   ImGui::PopStyleColor();
 }
 
-void run_shortcuts(const Context& context, bool dialog, bool help) {
+void Shortcuts::run(const Context& context, bool dialog, bool help) {
   const ImGuiIO& io = ImGui::GetIO();
+  if (const Action* action = std::exchange(after_typing_, nullptr); action && action->enabled(context))
+    action->run(context);
   const bool elsewhere = dialog || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
   int taken = 0; // of actions with the same keys the first that is enabled has them
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) taken = ImGuiKey_Escape; // it is for what is dragged
   if (help && !elsewhere && !io.WantTextInput && ImGui::IsKeyChordPressed(ImGuiKey_Escape)) {
     context.push(command::ToggleHelp{});
     taken = ImGuiKey_Escape;
@@ -114,15 +118,18 @@ void run_shortcuts(const Context& context, bool dialog, bool help) {
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
     // Where somebody goes from widget to widget by the keyboard, Space is for the widget that is marked.
     if (io.NavVisible && action.shortcut == ImGuiKey_Space) continue;
-    // The start page begins in its search: there Ctrl+O still opens. In a preset's fields Ctrl+S would save without
-    // what is being typed.
-    const bool is_function_key = key >= ImGuiKey_F1 && key <= ImGuiKey_F12; // no text has one
-    const bool types = io.WantTextInput && !is_function_key &&
+    // No text has a function key, or Ctrl+S. The start page begins in its search: there Ctrl+O still opens.
+    const bool ends_typing = action.shortcut == ImGuiKey_F5 || action.shortcut == (ImGuiMod_Ctrl | ImGuiKey_S),
+               is_function_key = key >= ImGuiKey_F1 && key <= ImGuiKey_F12,
+               types = io.WantTextInput && !is_function_key && !ends_typing &&
                        (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
     if (elsewhere || types || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
     if (action.enabled(context)) {
-      if (action.shortcut == ImGuiKey_F5) ImGui::ClearActiveID(); // what is being typed counts
-      action.run(context);
+      if (ends_typing && io.WantTextInput) { // what is being typed counts: its field changes the preset in this frame
+        ImGui::ClearActiveID();
+        after_typing_ = &action;
+      } else
+        action.run(context);
       taken = action.shortcut;
     } else if (action.why_not)
       context.note(fmt::format("{}: {}", action.name, action.why_not(context)));

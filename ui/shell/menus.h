@@ -11,9 +11,17 @@ void draw_menus(const Context& context, WidgetPlaces& places);
 /// At the right end of the menu bar: buttons of the actions that are used all day, as far as there is room. places:
 /// "toolbar:ACTION".
 void draw_toolbar(const Context& context, WidgetPlaces& places);
-/// Runs the actions whose keys were pressed; says why where one is not enabled and has a reason. Keys that a text field
-/// wants are left to it, and all of them where there is a dialog. help: it is shown, and Escape closes it.
-void run_shortcuts(const Context& context, bool dialog, bool help);
+/// Runs the actions whose keys were pressed.
+class Shortcuts {
+public:
+  /// Says why where an action is not enabled and has a reason. Keys that a text field wants are left to it, all of them
+  /// where there is a dialog, and Escape to what is dragged. help: it is shown, and Escape closes it.
+  void run(const Context& context, bool dialog, bool help);
+
+private:
+  const Action* after_typing_ = nullptr; ///< it runs in the next frame
+};
+
 void draw_help(const Context& context);
 
 /// What the mouse does, for the help and for docs/keys.md.

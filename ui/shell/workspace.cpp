@@ -88,8 +88,8 @@ Commands Workspace::draw(Workbench& workbench) {
       draw_toolbar(context, places_);
       ImGui::EndMainMenuBar();
     }
-    run_shortcuts(context, list_was_open_ || workbench.questions().question() != Question::none,
-                  workbench.setup().help_shown());
+    shortcuts_.run(context, list_was_open_ || workbench.questions().question() != Question::none,
+                   workbench.setup().help_shown());
   });
   guarded("status line", commands, [&] {
     strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y,

@@ -60,6 +60,7 @@ private:
   std::vector<Open> panels_;
   bool list_was_open_ = false; ///< in the last frame: an Escape that closes it is for nothing else
   Dialogs dialogs_;
+  Shortcuts shortcuts_;
   Palette palette_;
   StartPage start_page_;
 };

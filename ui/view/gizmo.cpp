@@ -215,6 +215,7 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   }
   if (!drag_) return;
   drag_->snaps = snaps;
+  if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) return take_back(context);
   follow(context, matrix);
   if (!drag_) return;
   const double beside = 0.6 * em();
@@ -231,6 +232,12 @@ void Gizmo::end_drag(const Context& context) {
   if (ImGuizmo::IsUsingAny()) let_go();
   drag_.reset();
   context.push(command::EndGesture{});
+}
+
+void Gizmo::take_back(const Context& context) {
+  const bool has_changed = drag_->newest.scene != drag_->start.scene;
+  end_drag(context);
+  if (has_changed) context.push(command::Undo{});
 }
 
 void Gizmo::follow(const Context& context, const glm::mat4& matrix) {

@@ -49,6 +49,7 @@ private:
     int shown = 0;         ///< the animation's frame that it began in
   };
   void end_drag(const Context& context);
+  void take_back(const Context& context);
   void follow(const Context& context, const glm::mat4& matrix);
   std::string edit(preset::Preset& edited, const glm::mat4& matrix) const;
   void note_places(const GizmoFrame& frame, const glm::dmat3& axes);
