@@ -62,6 +62,14 @@ std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> r
   return means;
 }
 
+std::vector<float> draw_by_places(const Blocks& blocks, std::span<const float> rgb) {
+  std::vector<float> against(rgb.begin(), rgb.end());
+  const auto width = static_cast<std::size_t>(blocks.width);
+  for (std::size_t i = 0; i < against.size(); ++i)
+    if ((i / 3 % width + i / 3 / width) % 2 == 1) against[i] = -against[i];
+  return mean_of_blocks(blocks, against);
+}
+
 std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> rgb) {
   if (blocks.edge == 1) return {rgb.begin(), rgb.end()};
   const auto across = static_cast<std::size_t>(blocks.across()), width = static_cast<std::size_t>(blocks.width);

@@ -211,10 +211,14 @@ LayerEstimate Development::preview_of(Stage& stage, double noise) {
   job::Picture picture = black(blocks);
   stage.develop_preview(picture);
   if (picture.layers.empty()) return {};
-  LayerEstimate coarse{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
+  return pixels_of({std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, noise);
+}
+
+LayerEstimate Development::pixels_of(LayerEstimate coarse, double noise) {
+  const Blocks& blocks = world_.preview.blocks;
   if (!smoothing_) return between(blocks, coarse);
-  timed([&] { pixels = smoothing_->pixels_of(blocks, std::move(coarse), noise); });
-  return pixels;
+  timed([&] { coarse = smoothing_->pixels_of(blocks, std::move(coarse), noise); });
+  return coarse;
 }
 
 LayerEstimate Development::layer_of(std::size_t s) {
@@ -247,8 +251,11 @@ LayerEstimate Development::layer_of(std::size_t s) {
       smoothing_->pixels().spread(layer.rgb, layer.draw, is_estimated ? estimate_ : std::vector<float>(),
                                   noise_of_paths);
     });
-  } else if (is_previewed) { // photons of a stage that has no preview of its own
-    layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));
+  } else if (is_previewed) { // photons of a stage that has no preview of its own: so far all are of one half
+    const Blocks& blocks = world_.preview.blocks;
+    LayerEstimate coarse{mean_of_blocks(blocks, layer.rgb), {}};
+    if (world_.halves == 2) coarse.draw = draw_by_places(blocks, layer.rgb);
+    layer = pixels_of(std::move(coarse), noise_of_paths);
   }
   return layer;
 }

@@ -113,10 +113,13 @@ struct PixelSight {
   PixelSurfaces::Surface surface; ///< the diffuse one at the end of a ray, or the first of glass or a mirror
   int first = -1;                 ///< object that the ray meets first; -1: none, or a texture or a lamp is seen
   bool at_edge = false;           ///< whether a neighbour shows something else, whose light the pixel may hold
+  bool is_beside = false;         ///< whether nothing is seen in its middle, and the surface is a neighbour's
 };
 
 bool are_level(const PixelSight& a, const PixelSight& b) {
-  if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
+  if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge ||
+      a.is_beside != b.is_beside || a.first < 0)
+    return false;
   const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
   return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
 }
@@ -241,6 +244,18 @@ void Smoothing::find_surfaces() {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;
   });
+  // Beside an object that ends before nothing, pixels hold a little of its light, too.
+  const std::vector<PixelSight> in_middle = seen;
+  const auto show_surface_of = [&](std::size_t i, std::size_t j) {
+    if (pixels[i].first.object >= 0 || near_lamp[i] || seen[i].first >= 0 || in_middle[j].first < 0) return;
+    seen[i] = in_middle[j];
+    seen[i].is_beside = true;
+  };
+  for (const bool diagonal : {false, true})
+    for_neighbours(width_, height_, diagonal, [&](std::size_t i, std::size_t j) {
+      show_surface_of(i, j);
+      show_surface_of(j, i);
+    });
   // Blocks reach beyond what shows a texture: light without one is about as strong there if it has the mean texture.
   for (std::size_t c = 0; c < 3 && !texture_.empty(); ++c) {
     double sum = 0, count = 0;

@@ -29,6 +29,18 @@ TEST(Coarse, ABlockIsTheMeanOfItsPixelsAlsoWhereItIsCut) {
   EXPECT_THAT(photons::mean_of_blocks(blocks, rgb), ElementsAre(2, 20, 7, 3.5, 35, 7));
 }
 
+TEST(Coarse, PlacesTellHowNoisyABlockIs) {
+  const Blocks blocks{64, 64, 4};
+  EXPECT_THAT(photons::draw_by_places(blocks, std::vector<float>(3 * 64 * 64, 2.0f)), Each(0));
+  std::mt19937 random(1);
+  std::poisson_distribution<int> photons(3);
+  std::vector<float> rgb(3 * 64 * 64);
+  for (float& value : rgb) value = static_cast<float>(photons(random));
+  double square = 0;
+  for (const float draw : photons::draw_by_places(blocks, rgb)) square += draw * draw / (3 * 16 * 16);
+  EXPECT_NEAR(square, 3.0 / 16, 0.02) << "the variance of a mean of 16";
+}
+
 TEST(Coarse, BetweenBlocksValuesChangeEvenly) {
   const Blocks blocks{12, 4, 4};
   EXPECT_THAT(photons::between_blocks(blocks, std::vector<float>(9, 0.25f)), Each(FloatEq(0.25f)));

@@ -2,6 +2,7 @@
 // Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made
 // pictures.
 #include "photons/block_smoothing.h"
+#include "photons/pixel_surfaces.h"
 #include "photons/smoothing.h"
 #include "tests/support/loaded_scenes.h"
 
@@ -142,6 +143,24 @@ TEST_F(Smoothing, keeps_power_in_pictures_of_any_size) {
     of.spread(rgb, draw);
     EXPECT_NEAR(sum(rgb) / before, 1, 1e-5) << width << " x " << height;
   }
+}
+
+// The samples of a pixel that sees the floor's far edge are few, and its middle sees nothing.
+TEST_F(Smoothing, spreads_what_pixels_beside_an_object_hold_along_its_outline) {
+  scene.objects.pop_back(); // the wall
+  scene.geometry.triangles.resize(scene.geometry.triangles.size() / 2);
+  bvh = scene::build_bvh(scene.geometry);
+  int edge = 0;
+  while (photons::surfaces_of_pixel(scene, bvh, scene.camera, size / 2, edge + 1).first.object < 0) ++edge;
+  Photons photons = scatter([&](int, int y) { return y >= edge - 1 ? 2.0 : 0.0; }, 5);
+  const double power = sum(photons.rgb);
+  const Moments before = moments(photons.rgb, edge, edge + 1, 0), beyond = moments(photons.rgb, edge - 1, edge, 0);
+  smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere).spread(photons.rgb, photons.error_draw);
+  const Moments after = moments(photons.rgb, edge, edge + 1, 0);
+  EXPECT_NEAR(after.mean, before.mean, 1e-5) << "it stays in that row";
+  EXPECT_LT(after.variance, before.variance / 4);
+  EXPECT_EQ(moments(photons.rgb, edge - 1, edge, 0).variance, beyond.variance) << "nothing is beside it";
+  EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
 }
 
 TEST_F(Smoothing, leaves_pixels_that_hold_enough_photons_alone) {
