@@ -38,12 +38,13 @@ public:
     return at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
   }
 
-  /// The mean over the same pixels.
-  double mean(int x, int y, int reach) const {
+  /// The number of the same pixels, and the mean over them.
+  double count(int x, int y, int reach) const {
     const int columns = std::min(x + reach + 1, width_) - std::max(x - reach, 0),
               rows = std::min(y + reach + 1, height_) - std::max(y - reach, 0);
-    return sum(x, y, reach) / (static_cast<double>(columns) * rows);
+    return static_cast<double>(columns) * rows;
   }
+  double mean(int x, int y, int reach) const { return sum(x, y, reach) / count(x, y, reach); }
 
 private:
   /// The sum of all pixels left of x and above y.

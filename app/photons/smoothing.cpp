@@ -64,6 +64,21 @@ std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int 
   return near;
 }
 
+std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw,
+                             const KindsOfPixels& kinds) {
+  const auto lights = kinds.sums([&](std::size_t i) { return light[i]; });
+  const auto variances = kinds.sums([&](std::size_t i) {
+    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
+    return (r * r + g * g + b * b) / 3;
+  });
+  std::vector<double> portion(light.size());
+  for_items(portion.size(), [&](std::size_t i) {
+    const double near = lights.mean(i, noise_radius);
+    portion[i] = near > 0 ? std::max(variances.mean(i, noise_radius), 0.0) / near : 0;
+  });
+  return portion;
+}
+
 /// How much of each pixel's light is better spread, 0..1. Spreading changes the picture m = truth + noise to m + r, and
 /// with a share s of the light to m + s r. The square of its error then grows by
 ///
@@ -77,10 +92,10 @@ std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int 
 /// whole square about it.
 std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const float> error_draw,
                                      std::span<const float> rgb_spread, std::span<const float> a_spread,
-                                     std::span<const float> b_spread, std::span<const double> light, int width,
-                                     int height) {
+                                     std::span<const float> b_spread, std::span<const double> light,
+                                     const KindsOfPixels& kinds) {
   const double dark = least_light(light);
-  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
+  const auto lights = kinds.sums([&](std::size_t i) { return light[i]; });
   std::vector<double> changes(light.size()), gains(light.size());
   for_items(light.size(), [&](std::size_t i) {
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
@@ -88,23 +103,19 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
       changes[i] += std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2);
       gains[i] -= q * d;
     }
-    const double near = dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius),
-                 weight = 1 / std::max(near, changes[i] / near);
+    const double near = dark + lights.mean(i, noise_radius), weight = 1 / std::max(near, changes[i] / near);
     changes[i] *= weight;
     gains[i] *= weight;
   });
-  const SummedArea change(width, height, [&](std::size_t i) { return changes[i]; });
-  const SummedArea gain(width, height, [&](std::size_t i) { return gains[i]; });
-  const SummedArea worth(width, height, [&](std::size_t i) {
-    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double changed = change.sum(x, y, bias_radius);
-    return changed > 0 ? std::clamp(gain.sum(x, y, bias_radius) / changed, 0.0, 1.0) : 0;
+  const auto change = kinds.sums([&](std::size_t i) { return changes[i]; });
+  const auto gain = kinds.sums([&](std::size_t i) { return gains[i]; });
+  const auto worth = kinds.sums([&](std::size_t i) {
+    const double changed = change.mean(i, bias_radius);
+    return changed > 0 ? std::clamp(gain.mean(i, bias_radius) / changed, 0.0, 1.0) : 0;
   });
   // A share that jumped would be seen as a line.
   std::vector<float> share(light.size());
-  for_items(share.size(), [&](std::size_t i) {
-    share[i] = static_cast<float>(worth.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius));
-  });
+  for_items(share.size(), [&](std::size_t i) { share[i] = static_cast<float>(worth.mean(i, noise_radius)); });
   return share;
 }
 
@@ -146,18 +157,7 @@ std::vector<double> light_of(std::span<const float> rgb) {
 }
 
 std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height) {
-  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
-  const SummedArea variances(width, height, [&](std::size_t i) {
-    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
-    return (r * r + g * g + b * b) / 3;
-  });
-  std::vector<double> portion(light.size());
-  for_items(portion.size(), [&](std::size_t i) {
-    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double near = lights.mean(x, y, noise_radius);
-    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_radius), 0.0) / near : 0;
-  });
-  return portion;
+  return portions(light, error_draw, KindsOfPixels(width, height));
 }
 
 void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
@@ -192,10 +192,12 @@ std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& sc
 }
 
 Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread, FindTexture find_texture)
-    : width_(width), height_(height), spread_(spread), view_(std::move(view)), find_texture_(std::move(find_texture)) {}
+    : width_(width), height_(height), spread_(spread), view_(std::move(view)), find_texture_(std::move(find_texture)),
+      kinds_(width, height) {}
 
 Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread)
-    : width_(width), height_(height), spread_(spread), view_(std::move(view)), has_textures_(false) {}
+    : width_(width), height_(height), spread_(spread), view_(std::move(view)), has_textures_(false),
+      kinds_(width, height) {}
 
 void Smoothing::find_surfaces() {
   if (!view_) return;
@@ -264,13 +266,19 @@ void Smoothing::find_surfaces() {
     for (std::size_t i = 0; i < knows_texture.size(); ++i)
       if (!knows_texture[i]) texture_[3 * i + c] = count > 0 ? static_cast<float>(sum / count) : 1;
   }
+  const auto is_matt_object = [&](int object) {
+    return object < 0 || is_matt(material_of(view->scene, view->scene.objects[static_cast<std::size_t>(object)]).type);
+  };
+  kinds_ = KindsOfPixels(width_, height_,
+                         [&](std::size_t i) { return seen[i].at_edge || !is_matt_object(pixels[i].first.object); });
   domain_ = SpreadDomain(width_, height_, [&](std::size_t i, std::size_t j) { return are_level(seen[i], seen[j]); });
 }
 
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh) {
-  constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
+  constexpr std::uint64_t pulled_apart = 2 * sizeof(double), // marks, and their summed area
+      kinds = sizeof(std::uint8_t) + sizeof(double);
   return tracing::tree_bytes(bvh) + tracing::mesh_bytes(scene) +
-         (sizeof(PixelSurfaces) + sizeof(PixelSight) + SpreadDomain::bytes_per_pixel() + pulled_apart) *
+         (sizeof(PixelSurfaces) + sizeof(PixelSight) + SpreadDomain::bytes_per_pixel() + pulled_apart + kinds) *
              scene.camera.pixels();
 }
 
@@ -304,7 +312,7 @@ void Smoothing::spread_light(std::vector<float>& rgb, std::vector<float>& error_
   keep_lamps({}, rgb);
   keep_lamps({}, error_draw);
   const std::vector<double> light = light_of(rgb);
-  const std::vector<double> portion = portions(light, error_draw, width_, height_);
+  const std::vector<double> portion = portions(light, error_draw, kinds_);
   // n portions have the noise 1 / sqrt(n).
   const Plane wanted = domain_.plane([&](std::size_t i) { return portion[i] / (noise * noise); });
   const auto kernels_of = [&](std::span<const double> of) {
@@ -337,7 +345,7 @@ void Smoothing::spread_light(std::vector<float>& rgb, std::vector<float>& error_
   if (spread_ == Spread::where_it_helps) {
     std::vector<float> a = rgb, b = rgb;
     for_items(rgb.size(), [&](std::size_t i) { a[i] += error_draw[i], b[i] -= error_draw[i]; });
-    share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_half(a), spread_half(b), light, width_, height_);
+    share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_half(a), spread_half(b), light, kinds_);
     rgb_spread = spread_by(kernels, rgb);
   }
   std::vector<float> draw_spread = spread_by(kernels, error_draw);

@@ -6,6 +6,7 @@
 // are narrow where photons are dense, so that bright lines stay sharp, and wide where photons are few. A pixel that is
 // not noisy is left alone; in the end none is, so the limit is that of the plain film. Power stays.
 #pragma once
+#include "photons/kinds_of_pixels.h"
 #include "photons/spread_kernels.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -87,6 +88,7 @@ private:
   bool has_textures_ = true;         ///< whether the light that comes has them
   FindTexture find_texture_;
   std::vector<float> texture_; ///< of find_texture_
+  KindsOfPixels kinds_;        ///< glass, mirrors and outlines; all else
   SpreadDomain domain_;
   std::vector<std::size_t> lamps_; ///< pixels that may hold light which a lamp sends there itself, and keep it
 };

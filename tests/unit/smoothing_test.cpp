@@ -163,6 +163,20 @@ TEST_F(Smoothing, spreads_what_pixels_beside_an_object_hold_along_its_outline) {
   EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
 }
 
+// Where the wall meets the floor, or beside glass, other light is in a pixel. Its noise is none of the floor's.
+TEST_F(Smoothing, leaves_light_without_noise_beside_an_outline_alone) {
+  Photons photons = scatter([](int, int) { return 0.0; }, 4);
+  const std::size_t row = 3 * size, outline = (size / 2 - 1) * row;
+  std::fill(photons.rgb.begin(), photons.rgb.end(), 2.0f);
+  std::mt19937 random(4);
+  for (std::size_t i = outline; i < outline + 2 * row; ++i)
+    photons.error_draw[i] = std::uniform_real_distribution<float>(-2, 2)(random);
+  const std::vector<float> before = photons.rgb;
+  smoothing.spread(photons.rgb, photons.error_draw);
+  photons.rgb.erase(photons.rgb.begin() + outline, photons.rgb.begin() + outline + 2 * row);
+  EXPECT_EQ(photons.rgb, std::vector<float>(before.begin() + 2 * row, before.end()));
+}
+
 TEST_F(Smoothing, leaves_pixels_that_hold_enough_photons_alone) {
   Photons photons = scatter([](int, int) { return 400.0; }, 2);
   const std::vector<float> before = photons.rgb;
