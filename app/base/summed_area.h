@@ -38,7 +38,7 @@ public:
     return at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
   }
 
-  /// The number of the same pixels, and the mean over them.
+  /// The number of sum()'s pixels, and the mean over them.
   double count(int x, int y, int reach) const {
     const int columns = std::min(x + reach + 1, width_) - std::max(x - reach, 0),
               rows = std::min(y + reach + 1, height_) - std::max(y - reach, 0);

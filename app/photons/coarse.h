@@ -26,8 +26,9 @@ std::vector<int> preview_edges(int width, int height);
 /// Returns the means of blocks, [block][3]. rgb is [pixel][3].
 std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb);
 
-/// Returns a draw of the error of mean_of_blocks() where the film has no halves: every other pixel's light, as of a
-/// checkerboard, against that of the others. It takes light that changes within a block for noise.
+/// Returns a draw of the error of mean_of_blocks() while a film has only one half: every other pixel's light, as of a
+/// checkerboard, against that of the others. Light that changes within a block, or fills one of an odd number of
+/// pixels, counts as noise. Noise that neighbours share does not.
 std::vector<float> draw_by_places(const Blocks& blocks, std::span<const float> rgb);
 
 /// Returns a picture, [pixel][3], that changes evenly from the middle of each block to the next. rgb is [block][3].

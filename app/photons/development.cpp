@@ -251,11 +251,12 @@ LayerEstimate Development::layer_of(std::size_t s) {
       smoothing_->pixels().spread(layer.rgb, layer.draw, is_estimated ? estimate_ : std::vector<float>(),
                                   noise_of_paths);
     });
-  } else if (is_previewed) { // photons of a stage that has no preview of its own: so far all are of one half
+  } else if (is_previewed) { // photons of a stage that has no preview of its own: their second half is not complete
     const Blocks& blocks = world_.preview.blocks;
     LayerEstimate coarse{mean_of_blocks(blocks, layer.rgb), {}};
     if (world_.halves == 2) coarse.draw = draw_by_places(blocks, layer.rgb);
     layer = pixels_of(std::move(coarse), noise_of_paths);
+    layer.draw.clear(); // it is good enough to smooth by, and no estimate of the error
   }
   return layer;
 }

@@ -52,7 +52,7 @@ private:
   job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
   /// The preview of a stage's layer, smoothed, [pixel][3]. noise: Smoothing::usual_noise's, for its light.
   LayerEstimate preview_of(Stage& stage, double noise);
-  /// coarse has a value for each block of the preview.
+  /// Smoothed values by pixel, from one of each block of the preview. noise: as for preview_of.
   LayerEstimate pixels_of(LayerEstimate coarse, double noise);
   LayerEstimate layer_of(std::size_t stage);
   LayerEstimate caustics();

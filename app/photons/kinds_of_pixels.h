@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Means around pixels, each of pixels of its own kind: noise in glass and along outlines is no noise of what is beside.
 #pragma once
+#include "base/parallel.h"
 #include "base/summed_area.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace nephroid::photons {
@@ -18,7 +20,7 @@ public:
   KindsOfPixels(int width, int height, const IsOther& is_other)
       : width_(width), height_(height), is_other_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
     for_items(is_other_.size(), [&](std::size_t i) { is_other_[i] = is_other(i); });
-    others_.emplace_back(width, height, [&](std::size_t i) { return is_other_[i]; });
+    others_.emplace(width, height, [&](std::size_t i) { return is_other_[i]; });
   }
 
   /// Of a value of each pixel.
@@ -28,8 +30,8 @@ public:
     double mean(std::size_t pixel, int reach) const {
       const KindsOfPixels& kinds = *kinds_;
       const int x = static_cast<int>(pixel) % kinds.width_, y = static_cast<int>(pixel) / kinds.width_;
-      if (kinds.others_.empty()) return of_kind_[0].mean(x, y, reach);
-      const double others = kinds.others_[0].sum(x, y, reach);
+      if (!kinds.others_) return of_kind_[0].mean(x, y, reach);
+      const double others = kinds.others_->sum(x, y, reach);
       return kinds.is_other_[pixel] != 0 ? of_kind_[1].sum(x, y, reach) / others
                                          : of_kind_[0].sum(x, y, reach) / (of_kind_[0].count(x, y, reach) - others);
     }
@@ -45,9 +47,9 @@ public:
   Sums sums(const Value& value) const {
     Sums sums;
     sums.kinds_ = this;
-    for (int kind = 0; kind < (others_.empty() ? 1 : 2); ++kind)
+    for (int kind = 0; kind < (others_ ? 2 : 1); ++kind)
       sums.of_kind_.emplace_back(width_, height_, [&](std::size_t i) {
-        return others_.empty() || is_other_[i] == kind ? static_cast<double>(value(i)) : 0.0;
+        return !others_ || is_other_[i] == kind ? static_cast<double>(value(i)) : 0.0;
       });
     return sums;
   }
@@ -55,7 +57,7 @@ public:
 private:
   int width_, height_;
   std::vector<std::uint8_t> is_other_; ///< [pixel]; empty with one kind
-  std::vector<SummedArea> others_;     ///< their number; empty with one kind
+  std::optional<SummedArea> others_;   ///< how many pixels are of the second kind
 };
 
 } // namespace nephroid::photons

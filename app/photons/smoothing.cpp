@@ -246,11 +246,11 @@ void Smoothing::find_surfaces() {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;
   });
-  // Beside an object that ends before nothing, pixels hold a little of its light, too.
-  const std::vector<PixelSight> in_middle = seen;
+  // Pixels beside an object, with nothing in their middle, hold a little of its light, too.
   const auto show_surface_of = [&](std::size_t i, std::size_t j) {
-    if (pixels[i].first.object >= 0 || near_lamp[i] || seen[i].first >= 0 || in_middle[j].first < 0) return;
-    seen[i] = in_middle[j];
+    if (pixels[i].first.object >= 0 || near_lamp[i] || seen[i].first >= 0 || seen[j].first < 0 || seen[j].is_beside)
+      return;
+    seen[i] = seen[j];
     seen[i].is_beside = true;
   };
   for (const bool diagonal : {false, true})

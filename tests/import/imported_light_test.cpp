@@ -202,7 +202,15 @@ TEST_F(ImportedLight, WhatAnIntegratorHidesOrEndsIsSaid) {
 <integrator type="path"><boolean name="hide_emitters" value="true"/>
 <integer name="max_depth" value="2"/></integrator>)");
   EXPECT_THAT(made.notes, IsSupersetOf({HasSubstr("in.xml:2: hide_emitters is left out: lamps and surroundings are"),
-                                        HasSubstr("in.xml:2: paths have max_depth 2 in the file")}));
+                                        HasSubstr("in.xml:2: paths end at max_depth 2 there")}));
+  const auto pbrt_says = [&](const std::string& words) {
+    pbrt("Integrator \"path\" " + words + "\nWorldBegin\nShape \"sphere\"");
+    return Contains(HasSubstr(words.empty() ? "paths end at maxdepth 5 there" : "paths end at maxdepth 2 there"));
+  };
+  for (const char* words : {"", "\"integer maxdepth\" [2]"}) {
+    const auto said = pbrt_says(words);
+    EXPECT_THAT(made.notes, said);
+  }
 }
 
 // A film's values are exposure time x ISO / 100 times the radiance in version 4, whichever of both comes first.

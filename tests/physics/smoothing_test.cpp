@@ -195,7 +195,7 @@ TEST(ThroughGlass, RunsGoOnConverging) {
   }
   // The run's own estimate is that of its noise: of what seeds differ by. It does not know what a part of the spectrum
   // gets wrong that ends with its leader (docs/notebook/eye-paths.md); here, in glass that disperses much, that is a
-  // third of the error's square. 24 seeds have 1.02 of the variance; eight .82, as it is of few pixels.
+  // quarter of the error's square. 24 seeds have 1.02 of the variance; eight .82, as it is of few pixels.
   constexpr std::uint64_t seeds = 24;
   const std::vector<float> zero(truth.picture->rgb.size(), 0.0f);
   std::vector<double> sum(zero.size());
@@ -211,7 +211,7 @@ TEST(ThroughGlass, RunsGoOnConverging) {
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (glass[i / 3]) variance -= sum[i] * sum[i] / seeds;
   variance *= double(seeds) / (seeds - 1);
-  EXPECT_NEAR(drawn / variance, 1, 0.25);
+  EXPECT_NEAR(drawn / variance, 1, 0.35);
   EXPECT_NEAR(drawn / error, 0.7, 0.2);
 }
 

@@ -165,21 +165,29 @@ TEST_F(Select, AnArrowMovesTheBall) {
 
 TEST_F(Select, EscapeTakesADragBack) {
   open();
+  edit([](preset::Preset& p) { p.scene.camera.fov_deg += 1; });
   select(ball);
+  const preset::Preset before = *workbench.preset();
   const Point tip = handle(1);
   press_at(tip);
-  press(ImGuiKey_Escape); // nothing has moved: what was done before stays
+  press(ImGuiKey_Escape); // nothing has moved
   let_go();
-  EXPECT_EQ(undo(), "");
+  EXPECT_EQ(undo(), "edit") << "what was done before stays";
   press_at(tip);
   move({tip[0] + 40, tip[1]});
   ASSERT_EQ(undo(), "move ball");
   press(ImGuiKey_Escape);
-  EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
+  EXPECT_EQ(*workbench.preset(), before);
   move({tip[0] + 80, tip[1]});
   let_go();
-  EXPECT_EQ(*workbench.preset(), workbench.edits()->opened()) << "it was let go";
+  EXPECT_EQ(*workbench.preset(), before) << "it was let go";
   EXPECT_EQ(selected(), ball);
+  press_at(tip);
+  move({tip[0] + 40, tip[1]});
+  press(ImGuiKey_Z, ImGuiMod_Ctrl); // taken back already
+  press(ImGuiKey_Escape);
+  let_go();
+  EXPECT_EQ(*workbench.preset(), before);
 }
 
 TEST_F(Select, CtrlSnapsADrag) {

@@ -30,14 +30,14 @@ TEST(Coarse, ABlockIsTheMeanOfItsPixelsAlsoWhereItIsCut) {
 }
 
 TEST(Coarse, PlacesTellHowNoisyABlockIs) {
-  const Blocks blocks{64, 64, 4};
-  EXPECT_THAT(photons::draw_by_places(blocks, std::vector<float>(3 * 64 * 64, 2.0f)), Each(0));
+  const Blocks blocks{256, 256, 4};
+  EXPECT_THAT(photons::draw_by_places(blocks, std::vector<float>(3 * 256 * 256, 2.0f)), Each(0));
   std::mt19937 random(1);
   std::poisson_distribution<int> photons(3);
-  std::vector<float> rgb(3 * 64 * 64);
+  std::vector<float> rgb(3 * 256 * 256);
   for (float& value : rgb) value = static_cast<float>(photons(random));
   double square = 0;
-  for (const float draw : photons::draw_by_places(blocks, rgb)) square += draw * draw / (3 * 16 * 16);
+  for (const float draw : photons::draw_by_places(blocks, rgb)) square += draw * draw / (3 * 64 * 64);
   EXPECT_NEAR(square, 3.0 / 16, 0.02) << "the variance of a mean of 16";
 }
 

@@ -60,11 +60,11 @@ std::vector<Action> file_actions() {
       {"Reopen the last session", 0, "The session of the window that was closed or killed last",
        [](C c) { return c.has_earlier_session; }, push<command::ReopenSession>,
        [](C) { return std::string("there is no earlier session"); }},
-      {"Save preset", ctrl | ImGuiKey_S, "Write the preset as it is now to its file", has_preset, save},
+      ending_typing({"Save preset", ctrl | ImGuiKey_S, "Write the preset as it is now to its file", has_preset, save}),
       {"Take the preset from its file", 0, "The preset as its file has it now; an edit that can be undone", has_file,
        push<command::ReloadPreset>, [](C) { return std::string("the preset has no file of its own"); }},
-      {"Save preset as...", ctrl | shift | ImGuiKey_S, "Write the preset as it is now to another file", has_preset,
-       ask<Question::save_preset>},
+      ending_typing({"Save preset as...", ctrl | shift | ImGuiKey_S, "Write the preset as it is now to another file",
+                     has_preset, ask<Question::save_preset>}),
       {"Save picture as...", ctrl | ImGuiKey_E, "Write the picture as it is now: .png as shown, .exr linear",
        has_picture, ask<Question::save_picture>},
       {"Quit", ctrl | ImGuiKey_Q, "Close the window", always, push<command::Quit>},
@@ -153,8 +153,8 @@ void pause(C c) { c.push(command::Pause{c.run.status().state != job::State::paus
 
 std::vector<Action> run_actions() {
   std::vector<Action> actions{
-      {"Start again", ImGuiKey_F5, "Start the run from its beginning", can_restart, push<command::Restart>,
-       why_no_restart},
+      ending_typing({"Start again", ImGuiKey_F5, "Start the run from its beginning", can_restart,
+                     push<command::Restart>, why_no_restart}),
       {"Pause", ImGuiKey_Space, "Hold the run, or let it go on", works, pause},
       {"Cancel", shift | ImGuiKey_F5, "End the run; its picture stays", works, push<command::Cancel>},
       {"Pin this run", ImGuiKey_P, "Keep its history and its picture, to compare later runs with", has_picture,

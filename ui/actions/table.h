@@ -26,6 +26,10 @@ inline Action repeating(Action action) {
   action.repeats = true;
   return action;
 }
+inline Action ending_typing(Action action) {
+  action.ends_typing = true;
+  return action;
+}
 /// What can be on or off.
 inline Action switching(Action action, std::function<bool(C)> is_on) {
   action.checked = std::move(is_on);

@@ -99,12 +99,15 @@ void draw_toolbar(const Context& context, WidgetPlaces& places) {
 
 void Shortcuts::run(const Context& context, bool dialog, bool help) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (const Action* action = std::exchange(after_typing_, nullptr); action && action->enabled(context))
-    action->run(context);
+  const auto run_or_say_why = [&](const Action& action) {
+    if (action.enabled(context)) return action.run(context);
+    if (action.why_not) context.note(fmt::format("{}: {}", action.name, action.why_not(context)));
+  };
+  if (const Action* action = std::exchange(after_typing_, nullptr)) run_or_say_why(*action);
   const bool elsewhere = dialog || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
   int taken = 0; // of actions with the same keys the first that is enabled has them
   if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) taken = ImGuiKey_Escape; // it is for what is dragged
-  if (help && !elsewhere && !io.WantTextInput && ImGui::IsKeyChordPressed(ImGuiKey_Escape)) {
+  if (help && taken == 0 && !elsewhere && !io.WantTextInput && ImGui::IsKeyChordPressed(ImGuiKey_Escape)) {
     context.push(command::ToggleHelp{});
     taken = ImGuiKey_Escape;
   }
@@ -118,21 +121,18 @@ void Shortcuts::run(const Context& context, bool dialog, bool help) {
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
     // Where somebody goes from widget to widget by the keyboard, Space is for the widget that is marked.
     if (io.NavVisible && action.shortcut == ImGuiKey_Space) continue;
-    // No text has a function key, or Ctrl+S. The start page begins in its search: there Ctrl+O still opens.
-    const bool ends_typing = action.shortcut == ImGuiKey_F5 || action.shortcut == (ImGuiMod_Ctrl | ImGuiKey_S),
-               is_function_key = key >= ImGuiKey_F1 && key <= ImGuiKey_F12,
-               types = io.WantTextInput && !is_function_key && !ends_typing &&
-                       (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
+    // No text has a function key. The start page begins in its search: there Ctrl+O still opens.
+    const bool is_function_key = key >= ImGuiKey_F1 && key <= ImGuiKey_F12,
+               types = io.WantTextInput && !is_function_key &&
+                       ((context.preset() && !action.ends_typing) || !(action.shortcut & ImGuiMod_Ctrl) ||
+                        !action.enabled(context));
     if (elsewhere || types || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
-    if (action.enabled(context)) {
-      if (ends_typing && io.WantTextInput) { // what is being typed counts: its field changes the preset in this frame
-        ImGui::ClearActiveID();
-        after_typing_ = &action;
-      } else
-        action.run(context);
-      taken = action.shortcut;
-    } else if (action.why_not)
-      context.note(fmt::format("{}: {}", action.name, action.why_not(context)));
+    if (action.enabled(context)) taken = action.shortcut;
+    if (action.ends_typing && io.WantTextInput) { // the field changes the preset in this frame
+      ImGui::ClearActiveID();
+      after_typing_ = &action;
+    } else
+      run_or_say_why(action);
   }
 }
 

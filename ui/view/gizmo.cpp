@@ -235,9 +235,10 @@ void Gizmo::end_drag(const Context& context) {
 }
 
 void Gizmo::take_back(const Context& context) {
-  const bool has_changed = drag_->newest.scene != drag_->start.scene;
+  const UndoStack::State& edits = context.edits->state();
+  const bool is_newest = edits.entries[edits.index].gesture == gestures_.number(); // nothing may have moved
   end_drag(context);
-  if (has_changed) context.push(command::Undo{});
+  if (is_newest) context.push(command::Undo{});
 }
 
 void Gizmo::follow(const Context& context, const glm::mat4& matrix) {

@@ -15,6 +15,7 @@ struct Action {
   std::function<void(const Context&)> let_go = nullptr;         ///< called when a held key is released
   std::function<bool(const Context&)> checked = nullptr;        ///< whether it is on; null: it cannot be on or off
   bool repeats = false;                                         ///< repeats while the keys are held
+  bool ends_typing = false;                                     ///< what is being typed counts before it runs
   std::string menu = {};                                        ///< the menu that lists it
 };
 

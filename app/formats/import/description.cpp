@@ -69,6 +69,12 @@ void Description::note(const std::string& text) {
   if (noted.insert(text).second) notes.push_back(text);
 }
 
+void Description::note_length_of_paths(const Location& where, const char* field, double most) {
+  constexpr double few = 8;
+  if (most >= 0 && most < few)
+    note(where, fmt::format("paths end at {} {:g} there, and are followed to their end here", field, most));
+}
+
 std::string Description::mesh_file(const std::filesystem::path& file, const Location& where) {
   std::string& key = mesh_files[file.lexically_normal()];
   if (!key.empty()) return key;

@@ -117,6 +117,9 @@ struct Description {
   void note(const std::string& text);
   /// FILE:LINE: the same.
   void note(const Location& where, const std::string& text) { note(where.text() + ": " + text); }
+  /// Notes that a file ends paths so early that more would be seen. field: its word for their length; most: that
+  /// length, below 0 where there is no limit.
+  void note_length_of_paths(const Location& where, const char* field, double most);
   /// Reads a mesh, which may be packed as .gz, and returns its key. where: of the shape, for the message where the file
   /// cannot be read.
   std::string mesh_file(const std::filesystem::path& file, const Location& where);

@@ -52,12 +52,9 @@ private:
 
   /// What of it changes the picture.
   void note_integrator(xml_node node) {
-    constexpr double few = 8; // surfaces, after which more would be seen
     if (file_.flag(node, "hide_emitters"))
       d_.note(file_.at(node), "hide_emitters is left out: lamps and surroundings are seen");
-    if (const double most = file_.number(node, "max_depth", -1); most >= 0 && most < few)
-      d_.note(file_.at(node),
-              fmt::format("paths have max_depth {:g} in the file, and are followed to their end here", most));
+    d_.note_length_of_paths(file_.at(node), "max_depth", file_.number(node, "max_depth", -1));
   }
 
   void add_camera(xml_node node) {

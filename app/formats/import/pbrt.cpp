@@ -206,6 +206,8 @@ private:
       add_shape(type, p);
     else if (word == "MakeNamedMedium")
       scene_.media[type] = {p.text("type", "homogeneous"), p};
+    else if (word == "Integrator" || word == "SurfaceIntegrator")
+      d_.note_length_of_paths(where, "maxdepth", p.number("maxdepth", 5));
     else if (word == "ColorSpace" && type != "srgb")
       d_.note(where, "the colour space " + type + " is left out: colours count as sRGB");
   }
