@@ -247,7 +247,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const sc
   plan.layers = static_cast<int>(layers.size());
   plan.estimates_error = input.estimate.runs;
   plan.mixes_frames = plan.estimates_error && scene.camera.receiver < 0;
-  plan.picture_bytes_a_pixel = plan.runs(smoothing_part) ? 120 : 48; // what is smoothed; a film of two halves read back
+  plan.picture_bytes_a_pixel = plan.runs(smoothing_part) ? 256 : 48; // as measured; a film of two halves read back
   if (layers.empty())
     plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.decisions[0].reason));
   if (settings.relight && any_material(scene, scatter::is_rough))
