@@ -282,17 +282,17 @@ TEST_F(PanelPictures, AMetalIsChosen) {
   window.click(search);
   window.type("materials.metal");
   const auto blue_part = [&](const image::Image& picture) {
-    const auto colour = test::bytes_at(picture, ball[0], ball[1] + 10); // where it mirrors the ground
+    const auto colour = test::bytes_at(picture, ball[0], ball[1] + 10); // it mirrors the ground: gold .45, silver .77
     return static_cast<double>(colour[2]) / std::max(colour[0], 1);
   };
-  window.until("a golden ball", [&] { return blue_part(window.picture("gold.png")) < 0.7; });
+  window.until("a golden ball", [&] { return blue_part(window.picture("gold.png")) < 0.6; });
   window.click(list);
   window.type("o");
-  taken(window, "window-materials.png", "a golden ball", [&](const auto& picture) { return blue_part(picture) < 0.7; });
+  taken(window, "window-materials.png", "a golden ball", [&](const auto& picture) { return blue_part(picture) < 0.6; });
   window.key("BackSpace");
   window.type("silv");
   window.key("Return");
-  window.until("a silver ball", [&] { return blue_part(window.picture("silver.png")) > 0.8; });
+  window.until("a silver ball", [&] { return blue_part(window.picture("silver.png")) > 0.7; });
   window.save();
   EXPECT_EQ(window.quit().exit_code, 0);
   EXPECT_EQ(preset::read_preset(file).scene.materials.at("metal").metal, "silver");
