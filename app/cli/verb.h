@@ -80,6 +80,7 @@ struct Session {
 // go to standard output, everything else to standard error.
 
 void add_run(CLI::App& program, Session& session);
+void add_measure(CLI::App& program, Session& session);
 void add_plan(CLI::App& program, Session& session);
 void add_dispersion(CLI::App& program, Session& session);
 void add_clusters(CLI::App& program, Session& session);

@@ -122,6 +122,16 @@ const ColourMatching& cie_1931() {
   return functions;
 }
 
+const ColourMatching& power_and_luminance() {
+  static const ColourMatching functions = [] {
+    ColourMatching result{};
+    result.x.fill(1);
+    result.y = cie_1931().y;
+    return result;
+  }();
+  return functions;
+}
+
 Colour to_xyz(const Spectrum& spectrum) {
   const ColourMatching& cie = cie_1931();
   Colour xyz{};

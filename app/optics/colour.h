@@ -13,6 +13,8 @@ struct ColourMatching {
   Spectrum x, y, z;
 };
 const ColourMatching& cie_1931();
+/// What a meter makes of light in their place: x its power, y as they have it, z 0.
+const ColourMatching& power_and_luminance();
 
 /// Sum over wavelengths of spectrum times (xbar, ybar, zbar), times 1 nm; no factor 683.
 Colour to_xyz(const Spectrum& spectrum);

@@ -145,6 +145,7 @@ plan::Decision receiver_decision(const PlanInput& input) {
                                                                  ? "what glass and mirrors show of caustics is left out"
                                                                  : "the camera sees no glass and no mirror")};
   }
+  if (input.scene.camera.meter) return {name, false, "a meter sees neither glass nor mirrors"};
   if (!sees)
     return tracing::not_needed(name, input.leave_out.light_on_receivers,
                                "the camera sees no glass and no mirror, so every caustic is splatted");

@@ -12,25 +12,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 namespace nephroid::photons {
 namespace {
-
-PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene) {
-  PixelLists lists;
-  lists.count = static_cast<std::uint32_t>(scene.camera.pixels());
-  lists.glass = glass_pixels(scene);
-  lists.may_show_glass.assign(lists.count, false);
-  for (const std::uint32_t pixel : lists.glass) lists.may_show_glass[pixel] = true;
-  std::vector<std::uint32_t> pixels(lists.count);
-  std::iota(pixels.begin(), pixels.end(), 0);
-  pixels.insert(pixels.end(), lists.glass.begin(), lists.glass.end());
-  lists.on_device = compute::Buffer(context, "pixels", pixels);
-  return lists;
-}
 
 std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scene) {
   if (plan.settings.relight || plan.settings.estimator == Settings::Estimator::sppm) return {};
@@ -65,28 +51,19 @@ class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
             const mpi::RankContext& context)
-      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables,
-               preset.white.value_or(1), plan.estimates_error ? 2u : 1u},
+      : world_(make_stage_context(preset, scene, bvh, plan, context)),
         preset_(preset), why_no_layers_(plan.why_no_layers), passes_(plan.tables.batches),
         preview_(world_, edges_of_previews(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(world_, plan, scene, bvh), !plan.runs(tile_stage),
                      plan.settings.smoothing == Settings::Smoothing::automatic),
         shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight &&
                      plan.estimates_error) {
-    world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
-    world_.pixels = make_pixel_lists(context, scene);
-    world_.emitters = compute::Buffer(context, "emitters", plan.tables.emitters);
     if (plan.runs(receiver_stage)) world_.receivers.emplace(make_receiver_light(world_, scene));
     for (const RunPart* part : plan.parts)
       if (part->make) passes_.add(part->make(world_, scene, plan.settings), part->layer);
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error))
       most_passes_ = preset.stop.passes.value_or(preset::default_passes);
-    if (context.communicator().broadcast(context.is_cold())) { // rank 0 may have rendered a reference before
-      for (const TimedStage& s : passes_.stages()) s.stage->warm_up(context.communicator());
-      world_.energy.fill_zero();
-      world_.context.finish(); // a run that never starts its work must not end while kernels run
-      context.set_warm();
-    }
+    passes_.warm_up(world_);
     if (const std::int64_t most = passes_.most(); most < preset::max_passes)
       most_passes_ = most_passes_ < 0 ? most : std::min(most_passes_, most);
   }

@@ -5,6 +5,15 @@
 
 namespace nephroid::photons {
 
+void Passes::warm_up(StageContext& world) {
+  const mpi::RankContext& context = world.context;
+  if (!context.communicator().broadcast(context.is_cold())) return; // rank 0 may have rendered a reference before
+  for (const TimedStage& s : stages_) s.stage->warm_up(context.communicator());
+  world.energy.fill_zero();
+  world.context.finish(); // a run that never starts its work must not end while kernels run
+  context.set_warm();
+}
+
 void Passes::advance() {
   const std::size_t now = at_.stage;
   bool complete = false;

@@ -27,6 +27,8 @@ public:
   void add(std::unique_ptr<Stage> stage, const char* layer) { stages_.push_back({std::move(stage), layer}); }
   const std::vector<TimedStage>& stages() const { return stages_; }
 
+  /// Runs all kernels once where OpenCL has not yet compiled them (Stage::warm_up).
+  void warm_up(StageContext& world);
   /// Runs one slice of about 30 ms of the stage whose turn it is.
   void advance();
   /// Does other work of the run and counts it for a stage.

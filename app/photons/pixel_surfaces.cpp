@@ -250,7 +250,7 @@ PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh
 }
 
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene) {
-  if (scene.camera.receiver >= 0) return {};
+  if (scene.camera.receiver >= 0 || scene.camera.meter) return {};
   std::vector<std::uint8_t> marked(scene.camera.pixels());
   std::mutex mutex;
   const auto take = [&](const Marks& marks) {

@@ -34,6 +34,7 @@ PlanPart plan_scene(const PlanInput& input) {
   part.buffers.push_back({"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}); // all pixels, and those of glass
   part.defines = scene::tree_defines(input.bvh);
   part.defines["NEPHROID_FILM_HALVES"] = std::to_string(input.halves());
+  part.defines["NEPHROID_METER"] = std::to_string(int(input.scene.camera.meter != nullptr));
   if (const Settings& s = input.settings; s.step_nm > 1 && s.method != Settings::Method::brute_force)
     part.notes = {
         fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps",

@@ -38,7 +38,7 @@ struct PlanInput {
 
   bool has_caustics() const { return caustics.runs || (tables.has_even_sky && settings.caustic); }
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }
-  std::uint64_t halves() const { return estimate.runs ? 2 : 1; }
+  std::uint64_t halves() const { return scene.camera.meter ? meter_parts : estimate.runs ? 2 : 1; }
   std::uint64_t pixels() const { return scene.camera.pixels(); }
   /// The bytes of a film of XYZ.
   std::uint64_t film_bytes() const { return halves() * 3 * sizeof(std::int64_t) * pixels(); }

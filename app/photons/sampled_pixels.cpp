@@ -31,6 +31,14 @@ std::int16_t whole_rate(double rate) {
   return static_cast<std::int16_t>(-(2 * std::llround((1 / rate - 1) / 2) + 1));
 }
 
+/// The samples of a pixel in a pass, before anything is known of noise. A meter's few cells have as many together as a
+/// picture's pixels.
+std::int16_t first_rate(const StageContext& world) {
+  constexpr std::uint32_t a_pass = 1 << 13;
+  if (!world.tables.meter) return 1;
+  return static_cast<std::int16_t>(std::clamp<std::uint32_t>(a_pass / world.pixels.count, 1, 255));
+}
+
 /// The moments of a sample of a pixel, or the mean of several.
 struct SampleMoments {
   double variance = 0, light_squared = 0; ///< sums of R, G and B
@@ -68,15 +76,16 @@ private:
 
 SampledPixels::SampledPixels(const StageContext& world, std::int64_t enough, double paths)
     : world_(world), enough_(enough), paths_(paths), passes_(world.pixels.glass.empty() ? enough : preset::max_passes),
-      counts_(world.pixels.count), rates_(world.pixels.count, 1), left_(world.pixels.count),
+      parts_(std::max(2u, world.halves)), counts_(std::size_t{parts_} * world.pixels.count),
+      rates_(world.pixels.count, first_rate(world)), left_(world.pixels.count),
       on_device_(world.context, "samples", static_cast<std::size_t>(most_samples_a_slice)) {}
 
 std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) const {
   const std::int64_t rate = rates_[pixel];
   const std::int64_t wanted = rate > 0 ? rate : (pass + turn_of(pixel)) % -rate == 0 ? 1 : 0;
   if (world_.pixels.may_show_glass[pixel]) return wanted;
-  const std::int64_t half = pass % 2, most = (enough_ + 1 - half) / 2;
-  return std::clamp<std::int64_t>(most - counts_[pixel][static_cast<std::size_t>(half)], 0, wanted);
+  const std::int64_t part = pass % parts_, most = (enough_ + parts_ - 1 - part) / parts_;
+  return std::clamp<std::int64_t>(most - counts_[pixel * parts_ + static_cast<std::size_t>(part)], 0, wanted);
 }
 
 void SampledPixels::take_next(std::int64_t pass, double amount) {
@@ -88,13 +97,13 @@ void SampledPixels::take_next(std::int64_t pass, double amount) {
   }
   next_.clear();
   const auto most = static_cast<std::size_t>(std::clamp(amount, 1.0, most_samples_a_slice));
-  const auto half = static_cast<std::uint32_t>(pass % 2);
+  const auto part = static_cast<std::uint32_t>(pass % parts_);
   for (; next_.size() < most && taken_ < wanted_; next_pixel_ = (next_pixel_ + 1) % std::ssize(left_)) {
     const auto pixel = static_cast<std::size_t>(next_pixel_);
     if (left_[pixel] == 0) continue;
     --left_[pixel];
     ++taken_;
-    next_.push_back({static_cast<std::uint32_t>(pixel), 2 * counts_[pixel][half]++ + half});
+    next_.push_back({static_cast<std::uint32_t>(pixel), parts_ * counts_[pixel * parts_ + part]++ + part});
   }
   next_count_ = next_.size();
   world_.context.communicator().keep_own_share(next_);
@@ -103,10 +112,10 @@ void SampledPixels::take_next(std::int64_t pass, double amount) {
 
 void SampledPixels::share_work(const Noise& noise) {
   passes_ = preset::max_passes; // for pixels that may now have less than a sample a pass
-  std::vector<SampleMoments> pixels(counts_.size());
+  std::vector<SampleMoments> pixels(rates_.size());
   for (std::size_t i = 0; i < 3 * pixels.size(); ++i) {
     const double draw = noise.draw[i], light = noise.light[i];
-    pixels[i / 3].variance += draw * draw * (counts_[i / 3][0] + counts_[i / 3][1]);
+    pixels[i / 3].variance += draw * draw * samples_of(i / 3);
     pixels[i / 3].light_squared += light * light;
   }
   const Neighbourhood around(world_, pixels);
@@ -119,7 +128,7 @@ void SampledPixels::share_work(const Noise& noise) {
         const SampleMoments near = around.mean(i, 1);
         sampled = {std::max(near.variance, sampled.variance / 8), near.light_squared};
       }
-      const double had = counts_[i][0] + counts_[i][1];
+      const double had = samples_of(i);
       const double light_squared =
           std::max(sampled.light_squared - sampled.variance / std::max(had, 1.0), 0.0); // less the noise's square
       // Noise beyond the light itself counts as that much: what is bright and rare stays noisy whatever is done.
@@ -134,7 +143,7 @@ void SampledPixels::share_work(const Noise& noise) {
 
 double SampledPixels::work() const {
   double work = 0;
-  for (std::size_t i = 0; i < counts_.size(); ++i) work += work_of_a_sample(i) * (counts_[i][0] + counts_[i][1]);
+  for (std::size_t i = 0; i < rates_.size(); ++i) work += work_of_a_sample(i) * samples_of(i);
   return work;
 }
 

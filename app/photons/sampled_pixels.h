@@ -28,7 +28,7 @@ public:
 
   /// Calls work(samples, count) for the next samples of the pass, on the device: one of each pixel, then another of
   /// each that has more, ... x is the pixel, y the sample's number in it. Even numbers belong to the film's first half,
-  /// odd ones to the second. True when the pass is complete.
+  /// odd ones to the second; with more parts each has its turn. True when the pass is complete.
   template <class Work>
   bool advance(std::int64_t pass, const Work& work) {
     take_next(pass, amount_.amount(world_.context.communicator()));
@@ -40,7 +40,9 @@ public:
 
   /// A pixel's samples, as Film::samples.
   std::array<double, 2> samples(std::size_t pixel) const {
-    return {double(counts_[pixel][0]), double(counts_[pixel][1])};
+    std::array<double, 2> halves{};
+    for (std::uint32_t part = 0; part < parts_; ++part) halves[part % 2] += counts_[pixel * parts_ + part];
+    return halves;
   }
 
   void share_work(const Noise& noise);
@@ -50,6 +52,10 @@ public:
   void serialize(tracing::Archive& archive);
 
 private:
+  double samples_of(std::size_t pixel) const {
+    const auto [even, odd] = samples(pixel);
+    return even + odd;
+  }
   double work_of_a_sample(std::size_t pixel) const {
     return world_.pixels.may_show_glass[pixel] ? paths_through_glass * work_through_glass : paths_ * work_of_a_path;
   }
@@ -60,7 +66,8 @@ private:
   std::int64_t enough_;
   double paths_;
   std::int64_t passes_;
-  std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: samples in even and in odd passes
+  std::uint32_t parts_;               ///< of the film: at least two
+  std::vector<std::uint32_t> counts_; ///< [pixel][part]: samples in passes of that part
   std::vector<std::int16_t> rates_;     ///< [pixel]: n > 0: n samples a pass; n < 0: one sample in every -n passes
   std::vector<std::uint8_t> left_;      ///< [pixel]: samples that it still has in the current pass
   std::int64_t taken_ = 0, wanted_ = 0; ///< samples of all pixels in it

@@ -46,7 +46,8 @@ struct SeenLight {
 struct StageContext : tracing::World {
   RunTables tables;
   double white = 1;
-  unsigned halves = 2;                    ///< halves of a film: 2 where the error is estimated (tracing/film.h)
+  /// Independent parts of a film: 2 where the error is estimated (tracing/film.h), else 1; meter_parts for a meter.
+  unsigned halves = 2;
   compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
@@ -105,6 +106,12 @@ struct StageContext : tracing::World {
   /// A scale for powers in the device's unit.
   float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }
 };
+
+struct RunPlan;
+
+/// Without receivers. Copies scene and tree to the device. Throws as tracing::make_world.
+StageContext make_stage_context(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                                const RunPlan& plan, const mpi::RankContext& context);
 
 /// Makes StageContext::receivers, with pages where paths from the eye ask for them.
 ReceiverLight make_receiver_light(StageContext& world, const scene::Scene& scene);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "base/numbers.h"
+#include "preset/meters.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>
@@ -94,6 +95,14 @@ void check_spectrum(const LightSpectrum& s, const std::string& pointer, const Wh
                   similar.empty() ? "" : fmt::format("did you mean '{}'?", similar));
 }
 
+void require_object(const std::string& name, const Scene& scene, const Location& where) {
+  std::vector<std::string> names;
+  for (const Object& object : scene.objects)
+    if (!object.name.empty()) names.push_back(object.name);
+  if (name.empty() || std::ranges::find(names, name) == names.end())
+    refuse_name("object", name, std::move(names), where);
+}
+
 void check_object(const Object& o, const Scene& scene, const std::string& pointer, const Where& where) {
   if (o.mesh.has_value() == o.shape.has_value())
     throw bad_input(where(pointer), o.mesh ? "has both 'mesh' and 'shape'" : "has neither 'mesh' nor 'shape'",
@@ -126,12 +135,31 @@ void check_light(const Light& l, const Scene& scene, const std::string& pointer,
   check_spectrum(l.spectrum, child(pointer, "spectrum"), where);
   if (is_directed(l)) check_direction(l.direction, child(pointer, "direction"), where);
   if (is_framed(l)) check_up(l.up, l.direction, child(pointer, "up"), where);
-  if (!has(l.type, LIGHT_HAS_OBJECT)) return;
-  std::vector<std::string> names;
-  for (const Object& object : scene.objects)
-    if (!object.name.empty()) names.push_back(object.name);
-  if (l.object.empty() || std::ranges::find(names, l.object) == names.end())
-    refuse_name("object", l.object, std::move(names), where(child(pointer, "object")));
+  if (has(l.type, LIGHT_HAS_OBJECT)) require_object(l.object, scene, where(child(pointer, "object")));
+}
+
+void check_meter(const Meter& m, std::size_t index, const Scene& scene, const Where& where) {
+  const std::string pointer = child("/scene/meters", index);
+  const auto at = [&](const char* field) { return where(child(pointer, field)); };
+  if (m.name.empty()) throw bad_input(at("name"), "is empty", "expected what tables and files may call the meter");
+  for (std::size_t other = 0; other < index; ++other)
+    if (file_stem(scene.meters[other]) == file_stem(m))
+      throw bad_input(at("name"), fmt::format("{} is the name of meter {}, too", in_quotes(m.name), other),
+                      "expected another name for each: their files are called by it");
+  if (m.type == Meter::Type::surface) {
+    require_object(m.object, scene, at("object"));
+    if (m.facing) check_direction(*m.facing, child(pointer, "facing"), where);
+    for (std::size_t axis = 0; m.within && axis < 3; ++axis)
+      if (!(m.within->low[axis] < m.within->high[axis]))
+        throw bad_input(at("within"), "has no volume: low is not below high", "expected low below high on each axis");
+  } else {
+    check_direction(m.normal, child(pointer, "normal"), where);
+    if (m.type == Meter::Type::plane) check_up(m.up, m.normal, child(pointer, "up"), where);
+  }
+  if (m.threshold && !quantity_in(*m.threshold))
+    throw bad_input(at("threshold"), fmt::format("is {}", in_quotes(*m.threshold)),
+                    fmt::format("expected a number and one of {}", fmt::join(meter_units(), ", ")),
+                    "write \"2500 W/m^2\", say");
 }
 
 void check_camera(const Camera& c, const Where& where) {
@@ -207,6 +235,7 @@ void check(const Preset& preset, const Where& where) {
     check_object(scene.objects[i], scene, child("/scene/objects", i), where);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check_light(scene.lights[i], scene, child("/scene/lights", i), where);
+  for (std::size_t i = 0; i < scene.meters.size(); ++i) check_meter(scene.meters[i], i, scene, where);
   if (scene.environment) check_environment(*scene.environment, "/scene/environment", where);
   check_display(preset, where);
   check_stop(preset, where);

@@ -92,6 +92,20 @@ inline constexpr Choice<Environment::Type> choices<Environment::Type>[] = {
     {Environment::Type::sky, "sky", "The clear sky and the sun of a place and time (Preetham et al. 1999)."}};
 
 template <>
+inline constexpr Choice<Meter::Type> choices<Meter::Type>[] = {
+    {Meter::Type::surface, "surface", "An object's surface, or a part of it."},
+    {Meter::Type::plane, "plane", "A rectangle in the air."},
+    {Meter::Type::point, "point", "A small window in the air, as of a light meter in the hand."}};
+
+template <>
+inline constexpr Choice<Meter::Unit> choices<Meter::Unit>[] = {
+    {Meter::Unit::watts, "W/m^2", "Irradiance."},
+    {Meter::Unit::kilowatts, "kW/m^2", "Irradiance."},
+    {Meter::Unit::lux, "lx", "Illuminance."},
+    {Meter::Unit::kilolux, "klx", "Illuminance."},
+    {Meter::Unit::suns, "suns", "Irradiance in 1,000 W/m^2."}};
+
+template <>
 inline constexpr Choice<Scene::DamagedMeshes> choices<Scene::DamagedMeshes>[] = {
     {Scene::DamagedMeshes::report, "report", "Say which, mend what can be mended, and go on."},
     {Scene::DamagedMeshes::refuse, "refuse", "An error."}};

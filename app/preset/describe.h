@@ -28,6 +28,7 @@ void describe(Fields& v, Coating& c);
 void describe(Fields& v, Material& m); // each type's fields are in its own file: app/scatter/material.cpp
 void describe(Fields& v, Light& l);    // app/lights has it
 void describe(Fields& v, PlaceAndTime& p);
+void describe(Fields& v, Meter& m);
 void describe(Fields& v, Scene& s);
 void describe(Fields& v, Preset& p);
 

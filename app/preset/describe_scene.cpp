@@ -236,6 +236,46 @@ void describe(Fields& v, Environment& e) {
           e.lights);
 }
 
+void describe(Fields& v, Box& b) {
+  v.about("Box", "A box along the axes.");
+  v.field("low", "Its lowest corner.", b.low, {.unit = length_unit, .bounds = position_bounds, .required = true});
+  v.field("high", "Its highest corner.", b.high, {.unit = length_unit, .bounds = position_bounds, .required = true});
+}
+
+void describe(Fields& v, Meter& m) {
+  v.about("Meter", "Measures the light that falls on a surface. Light takes no notice of it.");
+  using Type = Meter::Type;
+  v.type("type", "What it measures on.", m.type);
+  v.field("name", "What tables and files call it.", m.name, {.text = Text::line, .required = true});
+  if (m.type == Type::surface) {
+    v.field("object", "The name of an object: what falls on its front.", m.object,
+            {.text = Text::line, .names = Names::object, .required = true});
+    v.field("facing", "Only what faces this way, to 45 degrees; null: all of it.", m.facing,
+            {.bounds = position_bounds});
+    v.field("within", "Only what is in this box; null: all of it.", m.within);
+  } else {
+    v.field("position", "Its centre.", m.position, {.unit = length_unit, .bounds = position_bounds});
+    v.field("normal", "The way that it looks: light is measured that comes from there.", m.normal,
+            {.bounds = position_bounds});
+  }
+  if (m.type == Type::plane) {
+    v.field("up", "What is up in its map.", m.up, {.bounds = position_bounds});
+    v.field("size", "Its width, and its height along `up`.", m.size, {.unit = length_unit, .bounds = length_bounds});
+  }
+  if (m.type == Type::point)
+    v.field("diameter", "Of the window that light enters by.", m.diameter,
+            {.unit = length_unit, .bounds = length_bounds});
+  else
+    v.field("cell", "The edge of a cell; null: a 64th of the longest edge.", m.cell,
+            {.unit = length_unit, .bounds = length_bounds});
+  v.field("unit", "What its map is shown in.", m.unit);
+  v.field("threshold", "A value with its unit, such as \"2500 W/m^2\": the share of the area above it is told.",
+          m.threshold, {.text = Text::line});
+  v.field("until_percent",
+          "It has measured enough where the 95 % intervals of mean and peak are no wider than this each way.",
+          m.until_percent, {.unit = "%", .bounds = within(0.01, 100)});
+}
+
 void describe(Fields& v, Scene& s) {
   v.about("Scene", "What there is to see.");
   v.field("camera", "The camera.", s.camera);
@@ -243,6 +283,7 @@ void describe(Fields& v, Scene& s) {
   v.field("objects", "Everything that light can hit.", s.objects, {.count = {0, 10000}});
   v.field("lights", "The lights.", s.lights, {.count = {0, 1000}});
   v.field("environment", "What is behind everything, and may light it.", s.environment);
+  v.field("meters", "What measures light, for nephroid measure.", s.meters, {.count = {0, 100}});
   v.field("damaged_meshes", "What is done about glass whose mesh has a hole or is inside out.", s.damaged_meshes);
 }
 

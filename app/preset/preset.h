@@ -268,6 +268,33 @@ struct Environment {
   bool operator==(const Environment&) const = default;
 };
 
+/// A box along the axes.
+struct Box {
+  Vec3 low{-1, -1, -1}, high{1, 1, 1};
+  bool operator==(const Box&) const = default;
+};
+
+/// Measures the light that falls on a surface, in cells. Light takes no notice of it.
+struct Meter {
+  enum class Type { surface, plane, point };
+  enum class Unit { watts, kilowatts, lux, kilolux, suns };
+  Type type = Type::plane;
+  std::string name;
+  std::string object;             ///< surface: the name of the object, whose front it measures
+  std::optional<Vec3> facing;     ///< surface: only what faces this way, to 45 degrees
+  std::optional<Box> within;      ///< surface: only what is in here
+  Vec3 position{0, 0, 0};         ///< plane: its centre; point
+  Vec3 normal{0, 1, 0};           ///< plane, point: the side that light is measured on
+  Vec3 up{0, 0, -1};              ///< plane: the top of its map (projected)
+  std::array<double, 2> size{1, 1}; ///< plane: its width and its height along `up`
+  double diameter = 0.01;         ///< point: the edge of a square with the area of the meter's window
+  std::optional<double> cell;     ///< surface, plane: the edge of a cell; else a 64th of the longest edge
+  Unit unit = Unit::watts;        ///< what maps and the threshold's share are shown in
+  std::optional<std::string> threshold;  ///< with its unit: "2500 W/m^2"
+  std::optional<double> until_percent;   ///< the interval of mean and peak at which it has measured enough
+  bool operator==(const Meter&) const = default;
+};
+
 struct Scene {
   /// What is done about a dielectric's mesh that has a hole or is inside out. report: say which, and go on.
   enum class DamagedMeshes { report, refuse };
@@ -276,6 +303,7 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Light> lights;
   std::optional<Environment> environment;
+  std::vector<Meter> meters;
   DamagedMeshes damaged_meshes = DamagedMeshes::report;
   bool operator==(const Scene&) const = default;
 };

@@ -80,6 +80,8 @@ inline bool has_disc(const Light& light) { return light.one_minus_cos > 0; }
 
 inline bool is_environment(const Light& light) { return !light.primaries.empty(); }
 
+struct MeterSurface;
+
 /// right, up, forward: orthonormal. With a = (2 (x + .5) / width - 1) tan_x, b = (1 - 2 (y + .5) / height) tan_y a
 /// pixel centre (x, y) looks along forward + (a + shift.x) right + (b + shift.y) up. An orthographic one looks along
 /// forward, from position + a right + b up. A lens is the disc of lens_radius about that, across forward; the whole
@@ -93,6 +95,7 @@ struct Camera {
   int width = 0, height = 0;
   std::vector<int> inside; ///< dielectric objects that contain it, outermost first
   int receiver = -1;       ///< an object whose light alone is seen, through whatever is before it (formats/export)
+  std::shared_ptr<const MeterSurface> meter; ///< its pixels are a meter's cells (meter.h); null: it is an eye
 
   /// Whether its rays meet in one point, and its axis is in the middle of the picture.
   bool is_plain() const { return !orthographic && lens_radius == 0 && shift == glm::dvec2(0); }

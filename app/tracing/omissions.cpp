@@ -117,6 +117,7 @@ ObjectCounts count_objects(const scene::Scene& scene) {
 }
 
 bool may_see_glass_or_mirror(const scene::Scene& scene) {
+  if (scene.camera.meter) return false; // it sees its own surface
   return !scene.camera.inside.empty() || std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     return is_specular(material_of(scene, object).type) && may_be_in_view(scene, object);
   });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/scales.h"
 
+#include "scene/meter.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,7 +34,10 @@ double splat_scale(const scene::Scene& scene, unsigned photons, double watts) {
   const double distance =
       (camera.orthographic ? 1 : std::max<double>(glm::length(camera.position - bounds.centre), 0.25 * bounds.radius)) *
       scene.metres_per_unit;
-  const double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
+  double pixel_area = 4 * camera.tan_x * camera.tan_y / (double(camera.width) * camera.height);
+  if (camera.meter)
+    pixel_area = std::accumulate(camera.meter->areas.begin(), camera.meter->areas.end(), 0.0) /
+                 static_cast<double>(camera.meter->count()) * std::pow(scene.metres_per_unit / distance, 2);
   return power_of_two_below(std::exp2(16) * photons * std::numbers::pi * distance * distance * pixel_area / watts);
 }
 

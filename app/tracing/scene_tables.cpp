@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "lights/lights.h"
+#include "scene/meter.h"
 #include "tracing/lamp_tables.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
@@ -164,6 +165,27 @@ TextureTables make_texture_tables(const scene::Scene& scene, const std::vector<D
   return tables;
 }
 
+MeterTables make_meter_tables(const scene::MeterSurface& meter, double metres_per_unit) {
+  MeterTables tables;
+  for (const scene::MeterChart& chart : meter.charts)
+    tables.meter_charts.push_back({to_float4(chart.right, chart.left),
+                                   to_float4(chart.up, chart.top),
+                                   to_float4(chart.normal(), chart.height),
+                                   static_cast<float>(1 / chart.cell_width),
+                                   static_cast<float>(1 / chart.cell_height),
+                                   chart.columns,
+                                   chart.rows,
+                                   static_cast<int>(chart.first),
+                                   int(meter.is_flat),
+                                   {}});
+  tables.meter_cells = meter.cells;
+  tables.meter_pieces.assign(meter.first_piece.begin(), meter.first_piece.end());
+  tables.meter_chances = meter.chances;
+  for (const double area : meter.areas)
+    tables.meter_density.push_back(static_cast<float>(1 / (area * metres_per_unit * metres_per_unit)));
+  return tables;
+}
+
 /// The object's number and the primitive's kind, as a kernel reads them from a w.
 float tag(int object, int kind) { return std::bit_cast<float>(object << 2 | kind); }
 
@@ -178,6 +200,15 @@ std::array<float, 2> packed_normal(const glm::vec3& normal) {
 
 float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
+/// A flat one.
+shared::DevicePrimitive device_triangle(const std::array<glm::vec3, 3>& corners, int object) {
+  const glm::vec3 a = corners[0], ab = corners[1] - a, ac = corners[2] - a;
+  const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(ab), glm::dvec3(ac))));
+  // The formula of triangle_offset of kernels/tracing/surface.h.
+  const float offset = 0x1p-21f * largest(glm::max(glm::abs(a), glm::max(glm::abs(ab), glm::abs(ac))));
+  return {with(a, tag(object, PRIMITIVE_FLAT)), with(ab, 0), with(ac, 0), with(normal, offset)};
+}
+
 shared::DevicePrimitive device_triangle(const scene::Mesh& mesh, const glm::uvec3& triangle, int object, bool smooth) {
   const glm::vec3 a = mesh.positions[triangle.x], ab = mesh.positions[triangle.y] - a,
                   ac = mesh.positions[triangle.z] - a;
@@ -189,10 +220,7 @@ shared::DevicePrimitive device_triangle(const scene::Mesh& mesh, const glm::uvec
             with(ac, third[1]),
             {first[0], first[1], second[0], second[1]}};
   }
-  const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(ab), glm::dvec3(ac))));
-  // The formula of triangle_offset of kernels/tracing/surface.h.
-  const float offset = 0x1p-21f * largest(glm::max(glm::abs(a), glm::max(glm::abs(ab), glm::abs(ac))));
-  return {with(a, tag(object, PRIMITIVE_FLAT)), with(ab, 0), with(ac, 0), with(normal, offset)};
+  return device_triangle({a, mesh.positions[triangle.y], mesh.positions[triangle.z]}, object);
 }
 
 shared::DevicePrimitive device_ellipsoid(const scene::Ellipsoid& ellipsoid, int object) {
@@ -212,9 +240,13 @@ shared::DevicePrimitive device_primitive(const scene::Scene& scene, std::size_t 
 }
 
 std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene) {
-  std::vector<shared::DevicePrimitive> primitives(scene.object_of_primitive.size());
+  const std::size_t met = scene.object_of_primitive.size();
+  const auto& meter = scene.camera.meter;
+  std::vector<shared::DevicePrimitive> primitives(met + (meter ? meter->pieces.size() : 0));
   for_ranges(primitives.size(), 1 << 14, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) primitives[i] = device_primitive(scene, i);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      primitives[i] =
+          i < met ? device_primitive(scene, i) : device_triangle(meter->pieces[i - met], meter->white);
   });
   return primitives;
 }
@@ -280,6 +312,10 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Location& 
   out.orthographic = int(camera.orthographic);
   out.shift_x = static_cast<float>(camera.shift.x);
   out.shift_y = static_cast<float>(camera.shift.y);
+  if (camera.meter) {
+    out.receiver = camera.meter->object;
+    out.meter_charts = static_cast<int>(camera.meter->charts.size());
+  }
   out.lens_radius = static_cast<float>(camera.lens_radius);
   out.focus = static_cast<float>(camera.focus);
   return out;
@@ -315,9 +351,12 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   for (std::size_t l = 0; l < lights.size(); ++l)
     if (tables.lights[l].type == LIGHT_MESH) tables.lights[l].as.mesh.xyz = to_float4(white_xyz(tables.wavelengths, l));
   tables.lamps = make_lamp_tables(scene, lights, tables.lights);
+  if (scene.camera.meter)
+    tables.meter = std::make_shared<const MeterTables>(make_meter_tables(*scene.camera.meter, scene.metres_per_unit));
   tables.light_towards_targets_w =
       std::accumulate(tables.towards_targets_w.begin(), tables.towards_targets_w.end(), 0.0);
   tables.camera = device_camera(scene.camera, Location(scene.source) / "scene" / "camera");
+  tables.camera.first_piece = static_cast<int>(scene.object_of_primitive.size());
 
   tables.scene.material_count = static_cast<int>(scene.materials.size());
   tables.scene.light_count = static_cast<int>(tables.lights.size());

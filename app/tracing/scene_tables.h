@@ -51,6 +51,11 @@ struct LampTables {
   std::vector<lights::Surfaces> surfaces; ///< [light] a mesh's, in the order of its table; else nothing
 };
 
+/// A meter in the camera's place, as kernels/tracing/meter.h reads it.
+struct MeterTables {
+  METER_TABLES(TABLE_VECTOR)
+};
+
 struct SceneTables {
   shared::DeviceScene scene{}; ///< complete but for `root`, which is the tree's
   shared::DeviceCamera camera{};
@@ -60,6 +65,7 @@ struct SceneTables {
   std::shared_ptr<const SkyTables> sky;          ///< null where the environment is no light; large, so copies share it
   std::shared_ptr<const TextureTables> textures; ///< null where there are none; large, so copies share it
   std::shared_ptr<const LampTables> lamps;       ///< null where no lamp has a table; large, so copies share it
+  std::shared_ptr<const MeterTables> meter;      ///< null where there is an eye; large, so copies share it
   WavelengthTables wavelengths;
   StretchTables stretch;                 ///< for the clusters of `wavelengths`
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths
@@ -80,7 +86,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
 /// number: of the triangles, then the ellipsoids.
 shared::DevicePrimitive device_primitive(const scene::Scene& scene, std::size_t number);
 
-/// The triangles, then the ellipsoids.
+/// The triangles, then the ellipsoids, then the pieces of a meter.
 std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene);
 
 std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }

@@ -63,9 +63,9 @@ void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables) {
   }
 }
 
-/// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar), and of the light share.
-glm::dvec4 reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths) {
-  const optics::ColourMatching& eye = optics::cie_1931();
+/// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar) of `eye`, and of the light share.
+glm::dvec4 reflected(const optics::ColourMatching& eye, const Spectrum& light, const float* reflectance,
+                     const std::vector<int>& wavelengths) {
   glm::dvec4 sum(0);
   for (const int index : wavelengths) {
     const auto w = static_cast<std::size_t>(index);
@@ -80,36 +80,37 @@ const float* reflectance_row(const WavelengthTables& tables, int reflector) {
 }
 
 /// Adds one row to each table of light, for a spectrum that a photon may carry.
-void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables) {
-  for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(spectrum, nullptr, {w})));
+void add_spectrum_rows(const optics::ColourMatching& eye, const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables) {
+  for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(eye, spectrum, nullptr, {w})));
   for (const std::vector<int>& cluster : tables.clusters) {
     for (int r = 0; r < tables.reflector_count; ++r)
-      tables.reflected_xyz.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), cluster)));
-    if (tables.reflector_count == 0) tables.reflected_xyz.push_back(to_float4(reflected(spectrum, nullptr, cluster)));
+      tables.reflected_xyz.push_back(to_float4(reflected(eye, spectrum, reflectance_row(tables, r), cluster)));
+    if (tables.reflector_count == 0) tables.reflected_xyz.push_back(to_float4(reflected(eye, spectrum, nullptr, cluster)));
   }
   for (int r = 0; r < tables.reflector_count; ++r)
-    tables.reflected_xyz_all.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), all)));
+    tables.reflected_xyz_all.push_back(to_float4(reflected(eye, spectrum, reflectance_row(tables, r), all)));
   for (int r = 0; r <= tables.reflector_count; ++r) {
     glm::dvec4 before(0);
     for (const int w : tables.cluster_wavelengths) {
       tables.reflected_before.push_back(to_float4(before));
-      before += reflected(spectrum, r < tables.reflector_count ? reflectance_row(tables, r) : nullptr, {w});
+      before += reflected(eye, spectrum, r < tables.reflector_count ? reflectance_row(tables, r) : nullptr, {w});
     }
   }
 }
 
 /// Photons are allocated by a light's spectrum and carry it too. Only the environment's carry three parts.
-void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables) {
+void add_light_rows(const optics::ColourMatching& eye, const std::vector<const scene::Light*>& lights,
+                    WavelengthTables& tables) {
   const std::vector<int> all = optics::all_wavelengths();
   for (const scene::Light* light : lights) {
     if (is_environment(*light))
-      for (const Spectrum& primary : light->primaries) add_spectrum_rows(primary, all, tables);
+      for (const Spectrum& primary : light->primaries) add_spectrum_rows(eye, primary, all, tables);
     else
-      add_spectrum_rows(light->spectrum, all, tables);
+      add_spectrum_rows(eye, light->spectrum, all, tables);
     std::vector<double>& share = tables.share.emplace_back();
     std::vector<double>& seen = tables.seen.emplace_back();
     for (const std::vector<int>& cluster : tables.clusters) {
-      const glm::dvec4 sum = reflected(light->spectrum, nullptr, cluster);
+      const glm::dvec4 sum = reflected(eye, light->spectrum, nullptr, cluster);
       share.push_back(sum[3]);
       seen.push_back((sum[0] + sum[1] + sum[2]) / 3);
     }
@@ -125,13 +126,14 @@ void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthT
 }
 
 /// Adds a cdf for each cluster, by the worth of its members' light.
-void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables) {
+void add_wavelength_cdf(const optics::ColourMatching& eye, const std::vector<const scene::Light*>& lights,
+                        WavelengthTables& tables) {
   for (const std::vector<int>& cluster : tables.clusters) {
     std::vector<double> weights;
     for (const int w : cluster) {
       double weight = 0;
       for (const scene::Light* light : lights) {
-        const glm::dvec4 xyz_power = reflected(light->spectrum, nullptr, {w});
+        const glm::dvec4 xyz_power = reflected(eye, light->spectrum, nullptr, {w});
         weight += radiometric(*light) * worth((xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3, xyz_power[3]);
       }
       weights.push_back(weight);
@@ -213,10 +215,11 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
   tables.reflector_count = static_cast<int>(tables.reflectance.size() / wavelength_count);
   add_cluster_rows(scene, clusters, lit, tables);
   add_wavelength_rows(scene, tables);
-  add_light_rows(lights, tables);
+  const optics::ColourMatching& eye = scene.camera.meter ? optics::power_and_luminance() : optics::cie_1931();
+  add_light_rows(eye, lights, tables);
   add_cluster_cdf(lights, tables);
-  for (const scene::Light* light : lights) add_wavelength_cdf({light}, tables);
-  add_wavelength_cdf(lights, tables);
+  for (const scene::Light* light : lights) add_wavelength_cdf(eye, {light}, tables);
+  add_wavelength_cdf(eye, lights, tables);
   return tables;
 }
 

@@ -82,6 +82,14 @@ std::uint64_t lamp_bytes(const SceneTables& tables) {
   return bytes;
 }
 
+std::uint64_t meter_bytes(const SceneTables& tables) {
+  if (!tables.meter) return 0;
+  const MeterTables& from = *tables.meter;
+  std::uint64_t bytes = from.meter_chances.size() * sizeof(DevicePrimitive);
+  METER_TABLES(ADD_BYTES)
+  return bytes;
+}
+
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return block_bytes(bvh.nodes) + block_bytes(bvh.blocks); }
 
 std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh,
@@ -95,6 +103,7 @@ std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, cons
   if (tables.sky) rows.push_back({"environment as a light", sky_bytes(tables)});
   if (tables.textures) rows.push_back({"textures", texture_bytes(tables)});
   if (tables.lamps) rows.push_back({"lamps", lamp_bytes(tables)});
+  if (tables.meter) rows.push_back({"meter", meter_bytes(tables)});
   return rows;
 }
 
@@ -116,6 +125,7 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   static const SkyTables no_sky;
   static const TextureTables no_textures;
   static const LampTables no_lamps;
+  static const MeterTables no_meter;
   TableBlock block;
   const auto add_objects = [&](const SceneTables& from) { OBJECT_TABLES(ADD_TO_BLOCK) TARGET_TABLES(ADD_TO_BLOCK) };
   const auto add_wavelengths = [&](const WavelengthTables& from) {
@@ -125,12 +135,14 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   const auto add_sky = [&](const SkyTables& from) { SKY_TABLES(ADD_TO_BLOCK) };
   const auto add_textures = [&](const TextureTables& from) { TEXTURE_TABLES(ADD_TO_BLOCK) };
   const auto add_lamps = [&](const LampTables& from) { LAMP_TABLES(ADD_TO_BLOCK) };
+  const auto add_meter = [&](const MeterTables& from) { METER_TABLES(ADD_TO_BLOCK) };
   add_objects(tables);
   add_wavelengths(tables.wavelengths);
   add_stretch(tables.stretch);
   add_sky(tables.sky ? *tables.sky : no_sky);
   add_textures(tables.textures ? *tables.textures : no_textures);
   add_lamps(tables.lamps ? *tables.lamps : no_lamps);
+  add_meter(tables.meter ? *tables.meter : no_meter);
   buffers.tables = block.upload(context, "the scene's tables");
   return buffers;
 }

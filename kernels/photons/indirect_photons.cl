@@ -6,6 +6,7 @@
 #include "kernels/photons/launch_types.h"
 #include "kernels/photons/photon_start.h"
 #include "kernels/photons/splat.h"
+#include "kernels/tracing/meter.h"
 #include "kernels/photons/receiver.h"
 #include "kernels/transport/scatter_path.h"
 
@@ -35,6 +36,9 @@ typedef struct {
   bool met_glass; // before its first diffuse surface: paths from the eye do not find its light
   bool is_absorbed;
   int refused; // contributions, by the film
+#if NEPHROID_METER
+  MeterFilm on_meter;
+#endif
 } Visitor;
 
 static inline Band visitor_band(const Visitor* photon) {
@@ -82,6 +86,26 @@ static inline void show(const World* world, Visitor* photon, const Path* path, c
     ++photon->refused;
 }
 
+#if NEPHROID_METER
+static inline void measure(const World* world, Visitor* photon, const Path* path, int cell) {
+  if (cell < 0 || !photon->met_diffuse || !photon->counts) return;
+  const Band band = visitor_band(photon);
+  const float3 xyz = carried_light(world, &path->throughput, light_of(photon), &band, white_reflector()).xyz;
+  add_to_cell(world, &photon->on_meter, cell, xyz * (photon->watts * photon->shading));
+}
+
+static inline void visit_segment(const World* world, Visitor* photon, const Path* path, const Hit* hit) {
+  measure(world, photon, path, cell_crossed(world, photon->on_meter.meter, path, hit->t));
+}
+
+static inline void visit_surface(const World* world, Visitor* photon, const Path* path, const Interaction* at, int n) {
+  measure(world, photon, path, cell_met(world, photon->on_meter.meter, &at->surface, path->direction));
+}
+
+#define WALK_SEGMENTS
+#define WALK_SURFACES
+#endif
+
 #if NEPHROID_RECEIVERS
 // Leaves a photon's light, reflected by a diffuse surface, on its receiver.
 static inline void leave(const World* world, Visitor* photon, const Path* path, const Interaction* at,
@@ -102,7 +126,7 @@ static inline bool visit_base(const World* world, Visitor* photon, Path* path, c
   if (!photon->counts) return false;
   const float4 random = photon_numbers(photon, 2u + (uint)n);
   const Reflector reflector = reflector_at(world, &at->surface, at->triangle);
-  if (photon->met_diffuse) show(world, photon, path, at, reflector, random.w, n);
+  if (!NEPHROID_METER && photon->met_diffuse) show(world, photon, path, at, reflector, random.w, n);
 #if NEPHROID_RECEIVERS
   if (photon->met_diffuse && photon->met_glass) leave(world, photon, path, at, reflector);
 #endif
@@ -181,6 +205,9 @@ PHOTON_KERNEL(indirect_photons, (WORLD_ARGUMENTS,
     photon.counts = narrow;
     photon.met_diffuse = photon.met_glass = photon.is_absorbed = false;
     photon.refused = 0;
+#if NEPHROID_METER
+    photon.on_meter = meter_film(&camera, receiver.film, launch.film_scale, random.w);
+#endif
     const DrawnWavelength drawn = wavelength_of_cluster(
         world.tables.cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);
     photon.wavelength = drawn.wavelength;
@@ -195,6 +222,9 @@ PHOTON_KERNEL(indirect_photons, (WORLD_ARGUMENTS,
                         : how == WALK_LOST     ? OUTCOME_LOST
                         : how == WALK_LEFT && photon.counts ? OUTCOME_ESCAPED
                                                : OUTCOME_MISSED;
+#if NEPHROID_METER
+    photon.refused += photon.on_meter.refused;
+#endif
     add_outcome(outcomes, OUTCOME_REFUSED, photon.refused);
     const Band band = visitor_band(&photon);
     count_photon(outcomes, outcome, last + 1,

@@ -80,7 +80,7 @@ COMPILED_ONCE PhotonStart photon_start(__global const DeviceEmitter* emitters, i
                        (photon - emitter.light_first_photon);
   const uint index = (uint)number; // a sequence has 2^32 points; then another begins
   const uint3 sequence =
-      (uint3)(emitter.sequence, (uint)light->number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
+      (uint3)(emitter.sequence, (uint)light->number, (uint)(number >> 32) << 3 | iteration % NEPHROID_FILM_HALVES);
   const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
   const uint below = (uint)(start.emission.x * 0x1p24f);         // 24 more bits of the fourth number
   start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair

@@ -19,16 +19,6 @@
 #define NEPHROID_SPLAT 1
 #endif
 
-// The square of a contribution to the film in linear sRGB, in units of 2^12 of the film's quanta squared, at most 2^40.
-// The sum over an emitter's photons decides its number of photons (app/photons/effort/emitters.h).
-static inline long squared(float3 xyz, float scale) {
-  const float3 q = xyz * (scale * 0x1p-6f);
-  const float r = dot(q, (float3)(3.2406f, -1.5372f, -0.4986f)), g = dot(q, (float3)(-0.9689f, 1.8758f, 0.0415f)),
-              b = dot(q, (float3)(0.0557f, -0.2040f, 1.0570f));
-  const float sum = r * r + g * g + b * b;
-  return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
-}
-
 #if NEPHROID_RECEIVERS
 // A photon's light in its layer, as the xyz of its end. That is of all clusters until glass splits it; in a layer it is
 // that of its own, where one layer has all of it, or of its own wavelength.
@@ -92,7 +82,22 @@ PHOTON_KERNEL(photons, (WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
         emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
                  world.lights[emitter.light].inside,    full_throughput(),  emission.behind};
+#if NEPHROID_METER
+    Visitor visitor = photon_visitor(&band, launch.seed, batch, photon);
+    visitor.source = source;
+    visitor.watts = watts;
+    visitor.film = meter_film(&camera, film_of_iteration(film, batch, camera.width * camera.height), launch.film_scale,
+                              dither);
+    PhotonEnd end = follow_photon(&world, &visitor, &path);
+    end.share = share_at_end(&world, &path.throughput, source, &band, share);
+    end.left = power_left(&world, &path.throughput, source, &band, end.share);
+    if (visitor.film.refused != 0) add_outcome(outcomes, OUTCOME_REFUSED, visitor.film.refused);
+#if NEPHROID_MOMENTS
+    moment = visitor.film.moment;
+#endif
+#else
     const PhotonEnd end = trace_photon(&world, source, &band, share, &path, launch.seed, batch, photon);
+#endif
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
@@ -112,7 +117,7 @@ PHOTON_KERNEL(photons, (WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
 #endif
-    if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
+    if (NEPHROID_SPLAT > NEPHROID_METER && end.outcome == OUTCOME_DEPOSITED) { // a meter has what crossed it
       const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
 #if NEPHROID_LENS
       const DeviceCamera seen_from = through_lens(&camera, random4(launch.seed, batch, photon, 0u, STREAM_LENS).xy);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the eye begin: their direction, and the wavelength cluster of one that meets glass.
+#include "kernels/tracing/film.h"
 #include "kernels/tracing/frame.h"
 #include "kernels/tracing/path.h"
 #include "kernels/tracing/random.h"
@@ -7,6 +8,11 @@
 // 1: the camera has a lens, a shift or parallel rays. 0: it is a pinhole with its axis in the middle of the picture.
 #ifndef NEPHROID_LENS
 #define NEPHROID_LENS 0
+#endif
+
+// 1: a meter is in the camera's place (meter.h).
+#ifndef NEPHROID_METER
+#define NEPHROID_METER 0
 #endif
 
 #if NEPHROID_LENS
@@ -63,7 +69,7 @@ static inline float3 primary_direction(const DeviceCamera* camera, int column, i
 #define LENS_BLOCK 0xffu // of the numbers of a path, for its place on the lens
 
 // Declares `eye`, a kernel's camera, that the work item may move. Work items share an argument (PoCL): a copy is moved.
-#if NEPHROID_LENS
+#if NEPHROID_LENS || NEPHROID_METER
 #define EYE_OF(camera) DeviceCamera own_camera = (camera), *eye = &own_camera
 #else
 #define EYE_OF(camera) DeviceCamera* eye = &(camera)
@@ -83,7 +89,7 @@ static inline void stand_on_lens(DeviceCamera* camera, uint pixel, float2 place,
 // A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that a pixel's numbers spread
 // evenly. Even and odd frames have starts and counts of their own, as the film's independent halves must.
 static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream) {
-  const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;
+  const uint half_of_frames = frame % NEPHROID_FILM_HALVES, step = frame / NEPHROID_FILM_HALVES * paths + path;
   const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;
   return (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film: 64-bit fixed point, so that a sum has the same bits in any order and on every device.
-// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3].
+// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. A meter's has
+// eight parts in their place.
 #ifndef NEPHROID_FILM_HALVES
 #define NEPHROID_FILM_HALVES 2
 #endif
@@ -30,6 +31,16 @@ static inline void add_exactly(volatile __global long* sum, long value) {
 // The image that an iteration adds to.
 static inline volatile __global long* film_of_iteration(volatile __global long* film, uint iteration, int pixels) {
   return film + 3 * (size_t)pixels * (iteration % NEPHROID_FILM_HALVES);
+}
+
+// The square of a contribution to the film in linear sRGB, in units of 2^12 of the film's quanta squared, at most 2^40.
+// The sum over an emitter's photons decides its number of photons (app/photons/effort/emitters.h).
+static inline long squared(float3 xyz, float scale) {
+  const float3 q = xyz * (scale * 0x1p-6f);
+  const float r = dot(q, (float3)(3.2406f, -1.5372f, -0.4986f)), g = dot(q, (float3)(-0.9689f, 1.8758f, 0.0415f)),
+              b = dot(q, (float3)(0.0557f, -0.2040f, 1.0570f));
+  const float sum = r * r + g * g + b * b;
+  return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
 }
 
 // Adds xyz * scale to a pixel. dither: uniform in [0, 1). With it a contribution of q quanta, however small, adds q in

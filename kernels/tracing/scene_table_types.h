@@ -61,6 +61,14 @@
   TABLE(float, lamp_tables, "lamps' tables") /* mesh: chances of its surfaces; picture: of rows, then of each row's \
     texels; photometry: [plane][gamma] intensity over the mean of all directions */
 
+// A meter in the camera's place: meter.h. Empty where there is an eye.
+#define METER_TABLES(TABLE) \
+  TABLE(DeviceMeterChart, meter_charts, "a meter's charts") \
+  TABLE(int, meter_cells, "a meter's cells") /* of each place of the charts' grids; -1: none */ \
+  TABLE(int, meter_pieces, "where a meter's cells begin") /* [cell + 1]: first piece */ \
+  TABLE(float, meter_chances, "choice of a meter's piece") /* [piece] in its cell */ \
+  TABLE(float, meter_density, "areas of a meter's cells") /* [cell]: 1 over square metres */
+
 // Where photons are sent.
 #define TARGET_TABLES(TABLE) \
   TABLE(DeviceTarget, targets, "targets") /* lists: DeviceLight::first_target */
@@ -74,7 +82,7 @@
 
 #define OTHER_TABLES(TABLE) \
   OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE) TEXTURE_TABLES(TABLE) \
-  LAMP_TABLES(TABLE) TARGET_TABLES(TABLE) COLOUR_TABLES(TABLE)
+  LAMP_TABLES(TABLE) METER_TABLES(TABLE) TARGET_TABLES(TABLE) COLOUR_TABLES(TABLE)
 
 // clang-format on
 

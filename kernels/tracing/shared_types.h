@@ -127,13 +127,23 @@ typedef struct {
   float tan_x, tan_y;        // tangents of half the angle of view; orthographic: half the picture's edges
   int width, height;         // pixels
   Media inside;
-  int receiver; // the object whose light is mapped, whatever hides it; -1: an eye sees all
+  int receiver; // the object whose light is mapped, whatever hides it; -1: an eye sees all, or a meter is in the air
   // With NEPHROID_LENS, as scene::Camera has them:
   int orthographic;
   float shift_x, shift_y; // tangents: the way of the middle of the picture is forward + shift_x right + shift_y up
   float lens_radius, focus;
-  int padding[2];
+  int meter_charts, first_piece; // of a meter (meter.h): how many charts; the number of its first primitive
 } DeviceCamera;
+
+// A flat grid of a meter's cells. right, up, normal: unit.
+typedef struct {
+  float4 right, up, normal; // w: of the grid's left and its top, along right and up; of the plane, along its normal
+  float columns_per_unit, rows_per_unit;
+  int columns, rows;
+  int first;   // its first place in meter_cells
+  int is_flat; // all of the surface is in its plane, or in the air
+  int padding[2];
+} DeviceMeterChart;
 
 // The environment's picture: see background.h and sky.h.
 typedef struct {
@@ -181,6 +191,7 @@ static_assert(sizeof(DeviceMaterial) == 48 && sizeof(DeviceObject) == 12 && size
 static_assert(sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 52 + sizeof(DeviceTables));
 static_assert(sizeof(DeviceBackground) == 16);
+static_assert(sizeof(DeviceMeterChart) == 80);
 static_assert(sizeof(DevicePrimitive) == 64 && sizeof(DeviceTexture) == 44);
 } // namespace nephroid::shared
 #endif

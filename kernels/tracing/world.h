@@ -20,6 +20,7 @@ typedef struct {
   Sky sky; // empty where no environment is a light
   TEXTURE_TABLES(TABLE_MEMBER)
   LAMP_TABLES(TABLE_MEMBER)
+  METER_TABLES(TABLE_MEMBER)
   TARGET_TABLES(TABLE_MEMBER)
   COLOUR_TABLES(TABLE_MEMBER)
   DeviceScene scene;
@@ -32,7 +33,7 @@ typedef struct {
   {{GEOMETRY_TABLES(TABLE_IN_GEOMETRY) scene.root}, OBJECT_TABLES(TABLE_IN_TABLES) \
    {WAVELENGTH_TABLES(TABLE_IN_TABLES)}, STRETCH_TABLES(TABLE_IN_TABLES) \
    {SKY_TABLES(TABLE_IN_TABLES) scene.sky_size}, TEXTURE_TABLES(TABLE_IN_TABLES) LAMP_TABLES(TABLE_IN_TABLES) \
-   TARGET_TABLES(TABLE_IN_TABLES) COLOUR_TABLES(TABLE_IN_TABLES) scene}
+   METER_TABLES(TABLE_IN_TABLES) TARGET_TABLES(TABLE_IN_TABLES) COLOUR_TABLES(TABLE_IN_TABLES) scene}
 
 static inline DeviceMaterial material_of(const World* world, int object) {
   return world->materials[world->objects[object].material];

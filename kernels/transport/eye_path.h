@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where paths from the eye begin, and each lamp's unbent light on a diffuse surface.
-#include "kernels/tracing/camera.h"
+#include "kernels/tracing/meter.h"
 #include "kernels/lights/direct.h"
 #include "kernels/tracing/film.h"
 #include "kernels/scatter/scatter.h"
@@ -40,6 +40,9 @@ static inline float4 place_numbers(uint2 seed, uint sample, uint pixel) {
 // where that path begins.
 static inline Hit first_hit(const World* world, DeviceCamera* camera, uint pixel, float2 place, uint2 seed, uint sample,
                             float3* direction) {
+#if NEPHROID_METER
+  return hit_of_cell(world, camera, pixel, place, direction);
+#endif
   begin_on_lens(camera, pixel, place, seed, sample, 1u, STREAM_CAMERA);
   *direction = primary_direction(camera, (int)pixel % camera->width, (int)pixel / camera->width, place);
   Path path = path_from_eye(camera, *direction);

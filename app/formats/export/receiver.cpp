@@ -5,43 +5,27 @@
 #include "formats/export/export.h"
 
 #include "optics/spectrum.h"
-#include "scene/scene.h"
+#include "scene/meter.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nephroid::formats {
 namespace {
 
 constexpr double distance = 2; ///< from the camera to the receiver, over the receiver's longer edge
 
-/// The smallest rectangle along an edge of the first triangle: what is a rectangle has itself.
 Receiver rectangle(const scene::Scene& scene, int index, const scene::Plane& plane) {
-  const scene::Object& object = scene.objects[static_cast<std::size_t>(index)];
   Receiver receiver;
   receiver.object = index;
   receiver.is_front = plane.height({0, 0, 0}) >= 0; // where the glass and mirrors are: Scene::origin
-  const glm::dvec3 normal = receiver.is_front ? plane.normal : -plane.normal;
-  const glm::uvec3 first = scene::triangles_of(scene, object).front();
-  double least = std::numeric_limits<double>::max();
-  for (int edge = 0; edge < 3; ++edge) {
-    const auto corner = [&](int i) { return glm::dvec3(scene.geometry.positions[first[i % 3]]); };
-    const glm::dvec3 right = glm::normalize(corner(edge + 1) - corner(edge)), up = glm::cross(normal, right);
-    scene::Bounds bounds;
-    scene::for_each_corner(scene, object, [&](const glm::dvec3& p) {
-      const glm::dvec3 place(glm::dot(p, right), glm::dot(p, up), 0);
-      bounds = scene::enclosing(bounds, {place, place});
-    });
-    const glm::dvec3 size = bounds.high - bounds.low, middle = 0.5 * (bounds.low + bounds.high);
-    if (size.x * size.y >= least * (1 - 1e-6)) continue;
-    least = size.x * size.y;
-    receiver.right = right;
-    receiver.up = up;
-    receiver.width = size.x;
-    receiver.height = size.y;
-    receiver.centre = middle.x * right + middle.y * up + glm::dot(plane.point, normal) * normal;
-  }
+  const scene::Rectangle about = rectangle_about(scene, scene.objects[static_cast<std::size_t>(index)], plane,
+                                                 receiver.is_front ? plane.normal : -plane.normal);
+  receiver.centre = about.centre;
+  receiver.right = about.right;
+  receiver.up = about.up;
+  receiver.width = about.width;
+  receiver.height = about.height;
   return receiver;
 }
 

@@ -9,6 +9,9 @@
 
 namespace nephroid::photons {
 
+/// The independent parts of a meter's films, in the place of two halves: intervals are made of them.
+inline constexpr unsigned meter_parts = 8;
+
 struct RunTables : tracing::SceneTables {
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one batch, allocated to lights and clusters
   unsigned photons_per_batch = 0;              ///< photons of a batch: at least one for each emitter

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid measure`: what the meters of a preset show, as a table and as files.
+#include "base/counted.h"
+#include "base/files.h"
+#include "base/interrupts.h"
+#include "base/json_output.h"
+#include "cli/progress.h"
+#include "cli/run_target.h"
+#include "cli/verb.h"
+#include "image/image.h"
+#include "meters/map.h"
+#include "preset/choices.h"
+#include "preset/origins.h"
+#include "preset/read.h"
+#include "run/meters.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <memory>
+
+namespace nephroid::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using meters::Interval;
+using meters::LayerReading;
+using meters::Numbers;
+using meters::Quantity;
+using meters::Reading;
+using run::MeterInHand;
+namespace fs = std::filesystem;
+
+struct MeasureOptions {
+  std::string preset, meter;
+  fs::path folder;
+  std::vector<std::string> overrides;
+  std::optional<double> seconds, until_percent;
+  std::optional<std::uint64_t> seed;
+  compute::DeviceOptions device;
+  bool json = false;
+};
+
+const char* unit_of(Quantity quantity) { return quantity == Quantity::irradiance ? "W/m^2" : "lx"; }
+
+/// "512.31 +- 0.2 %"; with both ends where they are not alike.
+std::string text_of(const Interval& interval) {
+  const double up = interval.high - interval.value, down = interval.value - interval.low, value = interval.value;
+  if (!(interval.half() > 0)) return fmt::format("{:.5g}", value);
+  if (value > 0 && std::abs(up - down) <= 0.2 * std::max(up, down))
+    return fmt::format("{:.5g} +- {:.2g} %", value, 100 * interval.half() / value);
+  return fmt::format("{:.4g} ({:.4g} to {:.4g})", value, interval.low, interval.high);
+}
+
+std::string percent_of(const Interval& share) {
+  if (share.high - share.low < 5e-4) return fmt::format("{:.1f} %", 100 * share.value);
+  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100 * share.value, 100 * share.low, 100 * share.high);
+}
+
+void print_numbers(const MeterInHand& meter, const Reading& reading, Quantity quantity) {
+  fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", unit_of(quantity), "mean", "peak", "least");
+  for (const LayerReading& layer : reading.layers) {
+    const Numbers& n = layer.numbers(quantity);
+    fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", layer.name, text_of(n.mean),
+               meter.surface.count() > 1 ? text_of(n.peak) : "", meter.surface.count() > 1 ? text_of(n.least) : "");
+  }
+}
+
+void print_text(const MeterInHand& meter, const preset::Preset& preset) {
+  const Reading& reading = *meter.reading;
+  const Numbers &watts = reading.all().numbers(Quantity::irradiance),
+                &lux = reading.all().numbers(Quantity::illuminance);
+  fmt::print("{}: {}, {:.4g} m^2; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"), reading.area_m2,
+             meter.run->work_seconds());
+  if (meter.run->photons() > 0) fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.run->photons()));
+  fmt::print("\n");
+  print_numbers(meter, reading, Quantity::irradiance);
+  print_numbers(meter, reading, Quantity::illuminance);
+  fmt::print("  total {} W, {} lm\n", text_of(watts.total), text_of(lux.total));
+  if (meter.surface.count() > 1) {
+    const Numbers& shown = reading.all().numbers(meters::quantity_of(meter.meter.unit));
+    const glm::dvec3 p = meter.surface.centres[shown.peak_cell] + meter.origin;
+    fmt::print("  peak at ({:.4g}, {:.4g}, {:.4g}) {}; uniformity (least / mean) {}\n", p.x, p.y, p.z,
+               preset::word(preset.unit), text_of(lux.uniformity));
+  }
+  if (reading.share_above)
+    fmt::print("  above {}: {} of the area\n", *meter.meter.threshold, percent_of(*reading.share_above));
+  if (const double lost = meter.run->lost_share(); lost > 1e-4)
+    fmt::print("  {:.2g} % of the photons' power met more than {} surfaces and is not in these numbers\n", 100 * lost,
+               meter.plan.settings.max_surfaces);
+}
+
+Json to_json(const Interval& interval) {
+  return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
+}
+
+Json to_json(const Numbers& numbers, const char* total) {
+  return {{"mean", to_json(numbers.mean)},
+          {total, to_json(numbers.total)},
+          {"peak", to_json(numbers.peak)},
+          {"least", to_json(numbers.least)},
+          {"uniformity", to_json(numbers.uniformity)}};
+}
+
+Json to_json(const MeterInHand& meter) {
+  const Reading& reading = *meter.reading;
+  Json object{{"name", meter.meter.name},
+              {"cells", meter.surface.count()},
+              {"area_m2", reading.area_m2},
+              {"seconds", meter.run->work_seconds()},
+              {"photons", meter.run->photons()},
+              {"lost_share", meter.run->lost_share()}};
+  for (const LayerReading& layer : reading.layers)
+    object["layers"][layer.name] = {{"W/m^2", to_json(layer.numbers(Quantity::irradiance), "total_w")},
+                                    {"lx", to_json(layer.numbers(Quantity::illuminance), "total_lm")}};
+  const glm::dvec3 p =
+      meter.surface.centres[reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell] + meter.origin;
+  object["peak_at"] = {p.x, p.y, p.z};
+  if (reading.share_above)
+    object["above"] = {{"threshold", *meter.meter.threshold}, {"share", to_json(*reading.share_above)}};
+  return object;
+}
+
+void write_files(const fs::path& folder, const MeterInHand& meter, double metres_per_unit) {
+  const std::string stem = preset::file_stem(meter.meter);
+  const Reading& reading = *meter.reading;
+  write_file_whole(folder / (stem + ".csv"), meters::csv(meter.surface, meter.origin, metres_per_unit, reading));
+  image::write_exr(folder / (stem + ".exr"), meters::picture(meter.surface, metres_per_unit, reading));
+  const measure::Bitmap map = meters::false_colours(meter.meter, meter.surface, reading);
+  image::write_png_bytes(folder / (stem + ".png"), map.width, map.height, map.rgba);
+}
+
+void report(const MeasureOptions& options, const run::Metering& metering) {
+  Json list = Json::array();
+  if (!options.folder.empty()) fs::create_directories(options.folder);
+  for (const MeterInHand& meter : metering.meters()) {
+    list.push_back(to_json(meter));
+    if (!options.json) print_text(meter, metering.prepared().preset);
+    if (!options.folder.empty())
+      write_files(options.folder, meter, metering.prepared().loaded->scene.metres_per_unit);
+  }
+  const Json object{{"preset", metering.prepared().preset.name}, {"confidence", 0.95}, {"meters", list}};
+  if (options.json) fmt::print("{}\n", json_text(object));
+  if (!options.folder.empty()) write_file_whole(options.folder / "measure.json", object.dump(2) + "\n");
+}
+
+/// Works until every meter has a reading, and then enough of one.
+void drive(const MeasureOptions& options, run::Metering& metering, const std::stop_token& interrupted) {
+  constexpr double usual_percent = 1, usual_seconds = 60;
+  const double percent = options.until_percent.value_or(usual_percent),
+               seconds = options.seconds.value_or(usual_seconds * static_cast<double>(metering.meters().size()));
+  LiveLine line;
+  const bool shows = progress_style(options.json) == ProgressStyle::live;
+  const auto all_read = [&] {
+    return std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading.has_value(); });
+  };
+  while (!interrupted.stop_requested()) {
+    if (metering.advance() && shows) {
+      std::string text;
+      for (const MeterInHand& meter : metering.meters())
+        text += fmt::format("{}{} +- {:.2g} %", text.empty() ? "" : ", ", meter.meter.name,
+                            100 * std::min(meter.relative_half_width(), 1.0));
+      line.show(fmt::format("{:.1f} s: {}", metering.work_seconds(), text));
+    }
+    if (!all_read()) continue;
+    const bool is_enough = !(options.seconds && !options.until_percent) && metering.is_enough(percent);
+    if (is_enough || metering.work_seconds() >= seconds) return;
+  }
+  if (!all_read()) throw Error(ErrorKind::interrupted, options.preset, "interrupted before there was anything to tell");
+}
+
+void measure(const MeasureOptions& options) {
+  preset::Preset preset = preset::read_preset(options.preset, options.overrides);
+  if (options.seed) preset.seed = *options.seed;
+  const Interrupts interrupts; // before OpenCL starts its threads
+  preset::at_origins(preset, [&] {
+    run::DeviceOnDemand device(device_opener(options.device));
+    const run::Prepared prepared = run::prepare(preset);
+    run::Metering metering(prepared, {device.context(), Communicator(nullptr)}, options.meter);
+    drive(options, metering, interrupts.token());
+    report(options, metering);
+  });
+}
+
+} // namespace
+
+void add_measure(CLI::App& program, Session&) {
+  const auto options = std::make_shared<MeasureOptions>();
+  Verb verb(program, "measure", "Irradiance and illuminance on the meters of a preset, with 95 % intervals",
+            {{"nephroid measure light-meter --seconds 2", "a table"},
+             {"nephroid measure light-meter --until 5 -o out/meters", "to 5 %, and as files"}},
+            "Files: for each meter NAME.csv (a row a cell), NAME.exr (a channel a quantity) and NAME.png (false "
+            "colours); measure.json.");
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.option("-o,--output", options->folder, {.type = "DIR", .says = "Also write files into this folder"});
+  verb.overrides(options->overrides);
+  verb.option("--meter", options->meter, {.type = "NAME", .says = "Only this one (default: all)"});
+  verb.option("--until", options->until_percent,
+              {.type = "PERCENT",
+               .says = "Stop where the intervals of mean and peak are this narrow each way (default 1), but where a "
+                       "meter has until_percent",
+               .from = 0.001,
+               .to = 100});
+  verb.option("--seconds", options->seconds,
+              {.type = "S",
+               .says = "Stop after this much work (default: 60 for each meter, or as --until says)",
+               .from = 0.001,
+               .to = 1e9});
+  verb.option("--seed", options->seed,
+              {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
+  verb.option("--device", options->device.selector,
+              {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.option("--kernels", options->device.kernels,
+              {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.flag("--json", options->json, "One JSON object instead of text");
+  verb.work([options] { measure(*options); });
+}
+
+} // namespace nephroid::cli

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "meters/map.h"
+
+#include "preset/choices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace nephroid::meters {
+namespace {
+
+using Colour = std::array<unsigned char, 3>;
+
+const char* name_of(Quantity quantity) { return quantity == Quantity::irradiance ? "irradiance" : "illuminance"; }
+
+/// A value between cells, of those around that are there; nothing where none is.
+std::optional<double> between(const Map& map, const std::vector<double>& values, double x, double y) {
+  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+  double sum = 0, weights = 0;
+  for (int dy = 0; dy < 2; ++dy)
+    for (int dx = 0; dx < 2; ++dx) {
+      const int i = std::clamp(column + dx, 0, map.width - 1), j = std::clamp(row + dy, 0, map.height - 1);
+      const int cell = map.cells[static_cast<std::size_t>(j * map.width + i)];
+      const double weight = std::abs(1 - dx - (x - column)) * std::abs(1 - dy - (y - row));
+      if (cell < 0) continue;
+      sum += weight * values[static_cast<std::size_t>(cell)];
+      weights += weight;
+    }
+  return weights > 0 ? std::optional(sum / weights) : std::nullopt;
+}
+
+/// Copies words, black to the bitmap's ground and white to light grey.
+void draw_words(measure::Bitmap& bitmap, int x, int y, const image::Image& words) {
+  for (int row = 0; row < words.height && y + row < bitmap.height; ++row)
+    for (int column = 0; column < words.width && x + column < bitmap.width; ++column) {
+      const float ink = words.data[static_cast<std::size_t>(row * words.width + column)];
+      const auto grey = static_cast<unsigned char>(std::lround(32 + 192 * ink));
+      bitmap.set(x + column, y + row, {grey, grey, grey});
+    }
+}
+
+} // namespace
+
+Map map_of(const scene::MeterSurface& surface) {
+  Map map;
+  for (const scene::MeterChart& chart : surface.charts) {
+    map.width += chart.columns + (map.width > 0 ? 1 : 0);
+    map.height = std::max(map.height, chart.rows);
+  }
+  map.cells.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height), -1);
+  int left = 0;
+  for (const scene::MeterChart& chart : surface.charts) {
+    for (int row = 0; row < chart.rows; ++row)
+      for (int column = 0; column < chart.columns; ++column)
+        map.cells[static_cast<std::size_t>(row * map.width + left + column)] =
+            surface.cells[chart.first + static_cast<std::size_t>(row * chart.columns + column)];
+    left += chart.columns + 1;
+  }
+  return map;
+}
+
+std::string csv(const scene::MeterSurface& surface, const glm::dvec3& origin, double metres_per_unit,
+                const Reading& reading) {
+  std::string text = "cell,x,y,z,normal_x,normal_y,normal_z,area_m2";
+  for (const LayerReading& layer : reading.layers)
+    for (const char* unit : {"W/m^2", "lx"}) {
+      const std::string name = layer.name == "all" ? unit : fmt::format("{} {}", layer.name, unit);
+      text += fmt::format(",{},{} low,{} high", name, name, name);
+    }
+  text += "\n";
+  for (std::size_t cell = 0; cell < surface.count(); ++cell) {
+    const glm::dvec3 p = surface.centres[cell] + origin, n = surface.normals[cell];
+    fmt::format_to(std::back_inserter(text), "{},{:.7g},{:.7g},{:.7g},{:.6g},{:.6g},{:.6g},{:.7g}", cell, p.x, p.y, p.z,
+                   n.x, n.y, n.z, surface.areas[cell] * metres_per_unit * metres_per_unit);
+    for (const LayerReading& layer : reading.layers)
+      for (const std::vector<Interval>& cells : layer.cells)
+        fmt::format_to(std::back_inserter(text), ",{:.7g},{:.7g},{:.7g}", cells[cell].value, cells[cell].low,
+                       cells[cell].high);
+    text += "\n";
+  }
+  return text;
+}
+
+image::Image picture(const scene::MeterSurface& surface, double metres_per_unit, const Reading& reading) {
+  const Map map = map_of(surface);
+  image::Image image;
+  image.width = map.width;
+  image.height = map.height;
+  for (const LayerReading& layer : reading.layers)
+    for (const Quantity quantity : quantities) {
+      const std::string name =
+          layer.name == "all" ? name_of(quantity) : fmt::format("{}.{}", layer.name, name_of(quantity));
+      image.channels.insert(image.channels.end(), {name, name + ".half"});
+    }
+  image.channels.push_back("area");
+  image.data.reserve(map.cells.size() * image.channels.size());
+  for (const int cell : map.cells) {
+    if (cell < 0) {
+      image.data.resize(image.data.size() + image.channels.size(), 0.0f);
+      continue;
+    }
+    const auto c = static_cast<std::size_t>(cell);
+    for (const LayerReading& layer : reading.layers)
+      for (const std::vector<Interval>& cells : layer.cells) {
+        image.data.push_back(static_cast<float>(cells[c].value));
+        image.data.push_back(static_cast<float>(cells[c].half()));
+      }
+    image.data.push_back(static_cast<float>(surface.areas[c] * metres_per_unit * metres_per_unit));
+  }
+  return image;
+}
+
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading) {
+  constexpr int wanted_edge = 640, lines = 5;
+  constexpr Colour nothing{32, 32, 32}, line{255, 255, 255};
+  const Map map = map_of(surface);
+  const int zoom = std::max(1, wanted_edge / std::max(map.width, map.height));
+  const auto q = static_cast<std::size_t>(quantity_of(meter.unit));
+  std::vector<double> values;
+  for (const Interval& cell : reading.all().cells[q]) values.push_back(cell.value / preset::size_of(meter.unit));
+  const double scale = measure::colour_scale(std::vector<float>(values.begin(), values.end()));
+  const measure::ColourBar bar = measure::colour_bar(map.height * zoom, scale, false);
+  const image::Image words =
+      image::text_picture(std::string(preset::word(meter.unit)), 16, Location("a meter's map"));
+  const int top = words.height + 12, width = map.width * zoom;
+  measure::Bitmap bitmap(width + std::max(bar.width, words.width + 12), top + std::max(map.height * zoom, bar.height));
+  measure::Bitmap beside(bar.width, bar.height);
+  measure::draw(beside, 0, bar);
+  for (int y = 0; y < bar.height; ++y)
+    for (int x = 0; x < bar.width; ++x) {
+      const unsigned char* from = beside.rgba.data() + 4 * static_cast<std::size_t>(y * bar.width + x);
+      bitmap.set(width + x, top + y, {from[0], from[1], from[2]});
+    }
+  draw_words(bitmap, width + 6, 6, words);
+  const auto level = [&](int x, int y) {
+    const auto value = between(map, values, (x + 0.5) / zoom - 0.5, (y + 0.5) / zoom - 0.5);
+    return value ? static_cast<int>(std::floor(lines * *value / scale)) : -1;
+  };
+  for (int y = 0; y < map.height * zoom; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int cell = map.cells[static_cast<std::size_t>(y / zoom * map.width + x / zoom)];
+      if (cell < 0) {
+        bitmap.set(x, top + y, nothing);
+        continue;
+      }
+      const int here = level(x, y);
+      const bool crosses = map.width * map.height > 16 && zoom > 2 && here <= lines &&
+                           (level(std::min(x + 1, width - 1), y) != here ||
+                            level(x, std::min(y + 1, map.height * zoom - 1)) != here);
+      bitmap.set(x, top + y,
+                 crosses ? line : measure::map_colour(values[static_cast<std::size_t>(cell)] / scale));
+    }
+  return bitmap;
+}
+
+} // namespace nephroid::meters

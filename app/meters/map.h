@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A reading as files: a table, a picture of numbers, and one of false colours.
+#pragma once
+#include "image/image.h"
+#include "meters/reading.h"
+#include "measure/difference.h"
+
+#include <string>
+#include <vector>
+
+namespace nephroid::meters {
+
+/// The cells as they lie in the charts' grids, the charts side by side with a column between them.
+struct Map {
+  int width = 0, height = 0;
+  std::vector<int> cells; ///< [row from the top][column]; -1: none
+};
+Map map_of(const scene::MeterSurface& surface);
+
+/// Rows of cell, place, normal, area; irradiance and illuminance with the halves of their intervals; then each layer's.
+/// origin: preset coordinates of the scene's (0, 0, 0). Places are in the preset's unit.
+std::string csv(const scene::MeterSurface& surface, const glm::dvec3& origin, double metres_per_unit,
+                const Reading& reading);
+
+/// Channels "irradiance" and "illuminance", "irradiance.half" and so on for the halves of their intervals,
+/// "direct.irradiance" and so on for layers, "area" in square metres: 0 where there is no cell.
+image::Image picture(const scene::MeterSurface& surface, double metres_per_unit, const Reading& reading);
+
+/// Values of the meter's unit in false colours with lines of equal value, and the scale beside them.
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading);
+
+} // namespace nephroid::meters

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photons/meter.h"
+
+#include "photons/passes.h"
+#include "photons/plan_part.h"
+
+#include <algorithm>
+
+namespace nephroid::photons {
+namespace {
+
+class Run final : public MeterRun {
+public:
+  Run(const preset::Preset& preset, const scene::Scene& view, const scene::Bvh& bvh, const RunPlan& plan,
+      const mpi::RankContext& context)
+      : world_(make_stage_context(preset, view, bvh, plan, context)), passes_(plan.tables.batches) {
+    for (const RunPart* part : plan.parts)
+      if (part->make) passes_.add(part->make(world_, view, plan.settings), part->layer);
+    passes_.warm_up(world_);
+  }
+
+  void advance() override {
+    if (!passes_.stages().empty()) passes_.advance();
+  }
+  std::int64_t rounds() const override { return passes_.complete() / meter_parts; }
+  std::uint64_t photons() const override { return passes_.photons(); }
+  double work_seconds() const override { return passes_.work_seconds(); }
+
+  std::vector<MeterLayer> layers() override {
+    job::Picture picture;
+    picture.width = world_.tables.camera.width;
+    picture.height = 1;
+    for (const TimedStage& s : passes_.stages()) s.stage->develop(passes_.complete(), false, picture);
+    std::vector<MeterLayer> layers;
+    for (const job::Layer& layer : picture.layers) {
+      MeterLayer& to = layers.emplace_back(MeterLayer{layer.name, {}});
+      to.parts.reserve(layer.parts.size() / 3 * 2);
+      for (std::size_t i = 0; i < layer.parts.size(); i += 3)
+        for (std::size_t c = 0; c < 2; ++c) to.parts.push_back(std::numbers::pi * layer.parts[i + c]);
+    }
+    return layers;
+  }
+
+  double lost_share() override {
+    const EnergyBalance balance = balance_of(outcome_watts(world_.context.all_reduced_sum(world_.energy),
+                                                           world_.tables.energy_scale, passes_.photon_batches()));
+    return balance.emitted_w > 0 ? balance.lost_w / balance.emitted_w : 0;
+  }
+
+private:
+  StageContext world_;
+  Passes passes_;
+};
+
+} // namespace
+
+RunPlan plan_meter(const preset::Preset& preset, const Settings& wanted, const scene::Scene& view,
+                   const scene::Bvh& bvh) {
+  Settings settings = wanted;
+  settings.estimator = Settings::Estimator::splat;
+  settings.smoothing = Settings::Smoothing::off;
+  settings.relight = settings.background = false;
+  settings.indirect = wanted.indirect.value_or(true);
+  // Short passes: there is a first interval after a round of them.
+  settings.photons_per_pass = std::max(wanted.photons_per_pass / static_cast<int>(meter_parts), 1);
+  settings.indirect_photons_per_pass = std::max(wanted.indirect_photons_per_pass / static_cast<int>(meter_parts), 1);
+  settings.pixel_samples = 1 << 20; // a cell has light and shadow, also of lamps that are points
+  preset::Preset measured = preset;
+  measured.white = 1;
+  measured.measure.estimate = true;
+  return make_plan(measured, settings, view, bvh, {.all = preset.leave_out});
+}
+
+std::unique_ptr<MeterRun> make_meter_run(const preset::Preset& preset, const scene::Scene& view, const scene::Bvh& bvh,
+                                         const RunPlan& plan, const mpi::RankContext& context) {
+  return std::make_unique<Run>(preset, view, bvh, plan, context);
+}
+
+} // namespace nephroid::photons

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A meter of the preset (scene/meter.h) as a run: photons and paths from its cells, in eight independent parts.
+#pragma once
+#include "mpi/rank_context.h"
+#include "photons/plan.h"
+#include "scene/meter.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::photons {
+
+/// Light that reaches a meter in one way.
+struct MeterLayer {
+  std::string name; ///< "direct", "caustic", "indirect"
+  /// [part][cell][2]: irradiance in W/m^2, and as an eye sees it (Y, no factor 683).
+  std::vector<double> parts;
+};
+
+class MeterRun {
+public:
+  virtual ~MeterRun() = default;
+  /// Does one slice of about 30 ms.
+  virtual void advance() = 0;
+  /// In a round each part has one pass.
+  virtual std::int64_t rounds() const = 0;
+  /// Photons sent so far.
+  virtual std::uint64_t photons() const = 0;
+  /// Seconds of work.
+  virtual double work_seconds() const = 0;
+  /// Right after a round.
+  virtual std::vector<MeterLayer> layers() = 0;
+  /// Parts of the photons' power that met too many surfaces, and their number that a film refused.
+  virtual double lost_share() = 0;
+};
+
+/// view: of scene::meter_view, whose camera is the meter. wanted: the run's settings for photons. What a meter has no
+/// use for is left out.
+RunPlan plan_meter(const preset::Preset& preset, const Settings& wanted, const scene::Scene& view,
+                   const scene::Bvh& bvh);
+
+/// Throws as make_job does.
+std::unique_ptr<MeterRun> make_meter_run(const preset::Preset& preset, const scene::Scene& view, const scene::Bvh& bvh,
+                                         const RunPlan& plan, const mpi::RankContext& context);
+
+} // namespace nephroid::photons

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Units of meters, and values with a unit.
+#pragma once
+#include "preset/preset.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::preset {
+
+/// Lumens of a watt at 555 nm (CIE 015): lux are this times the Y of an irradiance.
+inline constexpr double lumens_per_watt = 683.002;
+
+/// What an eye makes of light, or its power.
+constexpr bool is_luminous(Meter::Unit unit) { return unit == Meter::Unit::lux || unit == Meter::Unit::kilolux; }
+
+/// W/m^2, or lx, in one of a unit.
+constexpr double size_of(Meter::Unit unit) {
+  return unit == Meter::Unit::watts || unit == Meter::Unit::lux ? 1 : 1000; // a sun: 1,000 W/m^2
+}
+
+/// "W/m^2", ...
+std::vector<std::string_view> meter_units();
+
+struct Quantity {
+  double value = 0;
+  Meter::Unit unit = Meter::Unit::watts;
+};
+
+/// A value as Meter::threshold has it: "2500 W/m^2". Nothing where there is no unit, or none of meter_units().
+std::optional<Quantity> quantity_in(std::string_view text);
+
+/// The name of a meter as a part of a file's: letters, digits, '-', '_' and '.' alone.
+std::string file_stem(const Meter& meter);
+
+} // namespace nephroid::preset

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/meters.h"
+
+#include "base/nearest.h"
+#include "engine/engine.h"
+#include "preset/json_text.h"
+#include "run/memory.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <any>
+#include <bit>
+
+namespace nephroid::run {
+namespace {
+
+/// The scene with its environment as a light where the engine always takes it for one.
+scene::Scene lit_scene(const Prepared& prepared) {
+  scene::Scene scene = prepared.loaded->scene;
+  const bool decides = std::any_cast<photons::Settings>(&prepared.preset.settings.value()) != nullptr;
+  if (decides || !scene.environment || scene.environment->lights || scene.environment->is_black()) return scene;
+  scene.environment->lights = true;
+  scene.lights.push_back(scene::make_environment_light(*scene.environment));
+  return scene;
+}
+
+[[noreturn]] void refuse_name(const preset::Preset& preset, const std::string& wanted) {
+  std::vector<std::string> names;
+  for (const preset::Meter& meter : preset.scene.meters) names.push_back(meter.name);
+  const std::string similar = nearest(wanted, names);
+  throw bad_input("--meter", fmt::format("there is no meter {}", preset::in_quotes(wanted)),
+                  fmt::format("scene.meters has {}", fmt::join(names, ", ")),
+                  similar.empty() ? "" : fmt::format("did you mean '{}'?", similar));
+}
+
+} // namespace
+
+photons::Settings meter_settings(const preset::Preset& preset) {
+  const auto* settings = std::any_cast<photons::Settings>(&preset.settings.value());
+  return settings ? *settings : photons::Settings();
+}
+
+Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only)
+    : prepared_(prepared) {
+  const preset::Preset& preset = prepared.preset;
+  const Location where = Location(preset.source) / "scene" / "meters";
+  if (!engine::engine_of(preset).has_scene)
+    throw bad_input(Location(preset.source) / "engine",
+                    fmt::format("is {}, which has no scene that light falls in", preset.settings.engine()),
+                    "expected one with objects and lights");
+  if (preset.scene.meters.empty())
+    throw bad_input(where, "is empty: there is nothing to measure", "expected a meter",
+                    "add one: --set 'scene.meters=[{\"type\":\"surface\",\"name\":\"floor\",\"object\":\"floor\"}]'");
+  const scene::Scene scene = lit_scene(prepared);
+  for (std::size_t i = 0; i < preset.scene.meters.size(); ++i) {
+    const preset::Meter& meter = preset.scene.meters[i];
+    if (!only.empty() && meter.name != only) continue;
+    MeterInHand& next = meters_.emplace_back();
+    next.meter = meter;
+    next.origin = scene.origin;
+    next.surface = scene::make_meter(meter, scene, where / static_cast<int>(i));
+    const scene::Scene view = scene::meter_view(scene, next.surface);
+    next.plan = photons::plan_meter(preset, meter_settings(preset), view, *prepared.loaded->bvh);
+    require_memory(next.plan, view.camera.width, 1, context.device(), available_memory_bytes());
+    next.run = photons::make_meter_run(preset, view, *prepared.loaded->bvh, next.plan, context);
+  }
+  if (meters_.empty()) refuse_name(preset, only);
+}
+
+bool Metering::advance() {
+  MeterInHand& meter = meters_[next_];
+  const std::int64_t before = meter.run->rounds();
+  meter.run->advance();
+  if (meter.run->rounds() == before) return false;
+  // Rounds 1, 2, 3, 4, 6, 8, 12, ...: to read all cells takes a while, and who stops at the first lucky interval has
+  // one that is too small.
+  next_ = (next_ + 1) % meters_.size();
+  const auto rounds = static_cast<std::uint64_t>(meter.run->rounds());
+  const bool is_due = std::has_single_bit(rounds) || (rounds % 3 == 0 && std::has_single_bit(rounds / 3));
+  if (!is_due) return false;
+  meter.reading =
+      meters::read(meter.meter, meter.surface, prepared_.loaded->scene.metres_per_unit, meter.run->layers());
+  return true;
+}
+
+bool Metering::is_enough(double percent) const {
+  return std::ranges::all_of(meters_, [&](const MeterInHand& meter) {
+    return meter.relative_half_width() <= meter.meter.until_percent.value_or(percent) / 100;
+  });
+}
+
+double Metering::work_seconds() const {
+  double seconds = 0;
+  for (const MeterInHand& meter : meters_) seconds += meter.run->work_seconds();
+  return seconds;
+}
+
+} // namespace nephroid::run

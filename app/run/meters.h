@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The meters of a preset, measured: for the command line, the window and Python.
+#pragma once
+#include "meters/reading.h"
+#include "run/prepare.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nephroid::run {
+
+/// A meter at work.
+struct MeterInHand {
+  preset::Meter meter;
+  scene::MeterSurface surface;
+  glm::dvec3 origin{0}; ///< preset coordinates of the scene's (0, 0, 0)
+  photons::RunPlan plan;
+  std::unique_ptr<photons::MeterRun> run;
+  std::optional<meters::Reading> reading; ///< as of the last round; nothing before the first
+  double relative_half_width() const { return reading ? meters::relative_half_width(meter, *reading) : 1e9; }
+};
+
+class Metering {
+public:
+  /// Measures the meter of that name, or all where it is empty. Throws bad_input: the preset has none, or none of that
+  /// name, its engine has no scene, as scene::make_meter and photons::plan_meter; failed where memory lacks.
+  Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only = {});
+
+  /// Does a slice of about 30 ms of the meter whose interval is widest for what is asked of it. True after a round of
+  /// it, which has made its reading anew.
+  bool advance();
+  /// Whether all have the intervals that they ask for, or `percent` where they ask for none.
+  bool is_enough(double percent) const;
+  double work_seconds() const;
+  const std::vector<MeterInHand>& meters() const { return meters_; }
+  const Prepared& prepared() const { return prepared_; }
+
+private:
+  Prepared prepared_;
+  std::vector<MeterInHand> meters_;
+  std::size_t next_ = 0;
+};
+
+/// The settings of a meter's photons: the preset's, or of engines that have none the usual ones.
+photons::Settings meter_settings(const preset::Preset& preset);
+
+} // namespace nephroid::run

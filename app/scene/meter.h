@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a meter of the preset measures: cells on an object's surface, or in the air. Light takes no notice of them: the
+// pieces of the cells are in the scene's tables and not in its tree. In the scene's coordinates.
+#pragma once
+#include "base/location.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace nephroid::scene {
+
+/// A flat grid. A surface that is not flat has up to six, along the axes; each of its triangles is in the one that it
+/// faces most.
+struct MeterChart {
+  glm::dvec3 right{1, 0, 0}, up{0, 1, 0}; ///< unit; right x up looks to the side that is measured
+  double left = 0, top = 0;               ///< of the grid, along right and up
+  double height = 0;                      ///< of a plane in the air, along right x up
+  double cell_width = 1, cell_height = 1;
+  int columns = 1, rows = 1;
+  std::size_t first = 0; ///< its first place in MeterSurface::cells
+  glm::dvec3 normal() const { return glm::cross(right, up); }
+  std::size_t places() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+};
+
+struct MeterSurface {
+  std::string name;
+  int object = -1;                            ///< whose surface it is; -1: none's, it is in the air
+  bool is_flat = true;                        ///< in one plane, with one chart
+  double rounding = 4e-6; ///< of what it measures: single precision, and the facets that stand for an ellipsoid
+  int white = 0;                              ///< the object that its pieces are of, which has no other surface
+  std::vector<MeterChart> charts;             ///< at least one
+  std::vector<int> cells;                     ///< of each place of the charts' grids, rows from the top; -1: none
+  std::vector<std::array<glm::vec3, 3>> pieces; ///< triangles, cell after cell, just above the surface
+  std::vector<std::uint32_t> first_piece;     ///< [cell + 1]
+  std::vector<float> chances;                 ///< [piece]: of it and those before it, in its cell; the last 1
+  std::vector<double> areas;                  ///< [cell], square units
+  std::vector<glm::dvec3> centres, normals;   ///< [cell]
+  std::size_t count() const { return areas.size(); }
+};
+
+/// The most cells of a meter.
+inline constexpr std::size_t most_meter_cells = std::size_t{1} << 18;
+
+/// scene: loaded of the same preset. where: FILE#/scene/meters/INDEX. Throws bad_input there: no surface that faces
+/// there or is in the box, too many cells, a place inside of glass, a plane that looks into the object that it lies on.
+MeterSurface make_meter(const preset::Meter& meter, const Scene& scene, const Location& where);
+
+/// The scene as the meter sees it: a camera with a pixel for each cell. A pixel's radiance is its cell's irradiance over
+/// pi. Its colours are watts, what the eye makes of them (Y), and 0.
+Scene meter_view(Scene scene, MeterSurface meter);
+
+/// A rectangle in a plane.
+struct Rectangle {
+  glm::dvec3 centre{0};
+  glm::dvec3 right{1, 0, 0}, up{0, 1, 0}; ///< unit
+  double width = 0, height = 0;           ///< along right and up
+};
+
+/// The smallest one about a flat object along an edge of its first triangle: what is a rectangle has itself. normal:
+/// right x up, one of the plane's two.
+Rectangle rectangle_about(const Scene& scene, const Object& object, const Plane& plane, const glm::dvec3& normal);
+
+} // namespace nephroid::scene
