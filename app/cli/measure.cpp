@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -73,7 +74,8 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset) {
                 &lux = reading.all().numbers(Quantity::illuminance);
   fmt::print("{}: {}, {:.4g} m^2; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"), reading.area_m2,
              meter.run->work_seconds());
-  if (meter.run->photons() > 0) fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.run->photons()));
+  if (meter.run->photons() > 0)
+    fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.run->photons()));
   fmt::print("\n");
   print_numbers(meter, reading, Quantity::irradiance);
   print_numbers(meter, reading, Quantity::illuminance);
@@ -105,12 +107,9 @@ Json to_json(const Numbers& numbers, const char* total) {
 
 Json to_json(const MeterInHand& meter) {
   const Reading& reading = *meter.reading;
-  Json object{{"name", meter.meter.name},
-              {"cells", meter.surface.count()},
-              {"area_m2", reading.area_m2},
-              {"seconds", meter.run->work_seconds()},
-              {"photons", meter.run->photons()},
-              {"lost_share", meter.run->lost_share()}};
+  Json object{{"name", meter.meter.name},        {"cells", meter.surface.count()},
+              {"area_m2", reading.area_m2},      {"seconds", meter.run->work_seconds()},
+              {"photons", meter.run->photons()}, {"lost_share", meter.run->lost_share()}};
   for (const LayerReading& layer : reading.layers)
     object["layers"][layer.name] = {{"W/m^2", to_json(layer.numbers(Quantity::irradiance), "total_w")},
                                     {"lx", to_json(layer.numbers(Quantity::illuminance), "total_lm")}};
@@ -137,8 +136,7 @@ void report(const MeasureOptions& options, const run::Metering& metering) {
   for (const MeterInHand& meter : metering.meters()) {
     list.push_back(to_json(meter));
     if (!options.json) print_text(meter, metering.prepared().preset);
-    if (!options.folder.empty())
-      write_files(options.folder, meter, metering.prepared().loaded->scene.metres_per_unit);
+    if (!options.folder.empty()) write_files(options.folder, meter, metering.prepared().loaded->scene.metres_per_unit);
   }
   const Json object{{"preset", metering.prepared().preset.name}, {"confidence", 0.95}, {"meters", list}};
   if (options.json) fmt::print("{}\n", json_text(object));
@@ -188,8 +186,8 @@ void measure(const MeasureOptions& options) {
 void add_measure(CLI::App& program, Session&) {
   const auto options = std::make_shared<MeasureOptions>();
   Verb verb(program, "measure", "Irradiance and illuminance on the meters of a preset, with 95 % intervals",
-            {{"nephroid measure light-meter --seconds 2", "a table"},
-             {"nephroid measure light-meter --until 5 -o out/meters", "to 5 %, and as files"}},
+            {{"nephroid measure measuring/concave-facade --seconds 2", "a table"},
+             {"nephroid measure measuring/concave-facade --until 20 -o out/facade", "to 20 %, and as files"}},
             "Files: for each meter NAME.csv (a row a cell), NAME.exr (a channel a quantity) and NAME.png (false "
             "colours); measure.json.");
   verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});

@@ -114,7 +114,7 @@ image::Image picture(const scene::MeterSurface& surface, double metres_per_unit,
 }
 
 measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading) {
-  constexpr int wanted_edge = 640, lines = 5;
+  constexpr int wanted_edge = 640;
   constexpr Colour nothing{32, 32, 32}, line{255, 255, 255};
   const Map map = map_of(surface);
   const int zoom = std::max(1, wanted_edge / std::max(map.width, map.height));
@@ -123,8 +123,8 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
   for (const Interval& cell : reading.all().cells[q]) values.push_back(cell.value / preset::size_of(meter.unit));
   const double scale = measure::colour_scale(std::vector<float>(values.begin(), values.end()));
   const measure::ColourBar bar = measure::colour_bar(map.height * zoom, scale, false);
-  const image::Image words =
-      image::text_picture(std::string(preset::word(meter.unit)), 16, Location("a meter's map"));
+  const int lines = bar.numbers - 1; // at the numbers beside the bar
+  const image::Image words = image::text_picture(std::string(preset::word(meter.unit)), 16, Location("a meter's map"));
   const int top = words.height + 12, width = map.width * zoom;
   measure::Bitmap bitmap(width + std::max(bar.width, words.width + 12), top + std::max(map.height * zoom, bar.height));
   measure::Bitmap beside(bar.width, bar.height);
@@ -147,11 +147,10 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
         continue;
       }
       const int here = level(x, y);
-      const bool crosses = map.width * map.height > 16 && zoom > 2 && here <= lines &&
-                           (level(std::min(x + 1, width - 1), y) != here ||
-                            level(x, std::min(y + 1, map.height * zoom - 1)) != here);
-      bitmap.set(x, top + y,
-                 crosses ? line : measure::map_colour(values[static_cast<std::size_t>(cell)] / scale));
+      const bool crosses =
+          map.width * map.height > 16 && zoom > 2 && here <= lines &&
+          (level(std::min(x + 1, width - 1), y) != here || level(x, std::min(y + 1, map.height * zoom - 1)) != here);
+      bitmap.set(x, top + y, crosses ? line : measure::map_colour(values[static_cast<std::size_t>(cell)] / scale));
     }
   return bitmap;
 }

@@ -2,8 +2,8 @@
 // A reading as files: a table, a picture of numbers, and one of false colours.
 #pragma once
 #include "image/image.h"
-#include "meters/reading.h"
 #include "measure/difference.h"
+#include "meters/reading.h"
 
 #include <string>
 #include <vector>

@@ -10,30 +10,31 @@
 namespace nephroid::meters {
 namespace {
 
-/// Student's t of 0.975 for one degree of freedom less than parts: 2 to 16 of them (Abramowitz and Stegun, table 26.10).
-double students_t(std::size_t parts) {
+/// Student's t of 0.975 for one degree of freedom less than `count`: 2 to 16 of them (Abramowitz and Stegun, table
+/// 26.10).
+double students_t(std::size_t count) {
   constexpr double t[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
                           2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131};
-  return t[std::min(parts, std::size(t) + 1) - 2];
+  return t[std::min(count, std::size(t) + 1) - 2];
 }
 
-constexpr std::size_t parts_count = photons::meter_parts;
-using Parts = std::array<double, parts_count>;
+constexpr std::size_t replicates = photons::meter_replicates;
+using Replicates = std::array<double, replicates>;
 
-/// A quantity of the cells in each part: [part][cell].
-class CellParts {
+/// A quantity of the cells in each replicate.
+class CellValues {
 public:
-  CellParts(std::span<const double> both, Quantity quantity)
-      : both_(both), cells_(both.size() / (2 * parts_count)), quantity_(static_cast<std::size_t>(quantity)),
+  CellValues(std::span<const double> both, Quantity quantity)
+      : both_(both), cells_(both.size() / (2 * replicates)), quantity_(static_cast<std::size_t>(quantity)),
         scale_(quantity == Quantity::illuminance ? preset::lumens_per_watt : 1) {}
   std::size_t cells() const { return cells_; }
-  double operator()(std::size_t part, std::size_t cell) const {
-    return scale_ * both_[2 * (part * cells_ + cell) + quantity_];
+  double operator()(std::size_t replicate, std::size_t cell) const {
+    return scale_ * both_[2 * (replicate * cells_ + cell) + quantity_];
   }
-  Parts of(std::size_t cell) const {
-    Parts parts;
-    for (std::size_t part = 0; part < parts_count; ++part) parts[part] = (*this)(part, cell);
-    return parts;
+  Replicates cell(std::size_t cell) const {
+    Replicates values;
+    for (std::size_t r = 0; r < replicates; ++r) values[r] = (*this)(r, cell);
+    return values;
   }
 
 private:
@@ -43,43 +44,51 @@ private:
 };
 
 /// The highest cell by `better`, which is greater or less. Who looks for the highest of noisy cells finds one whose
-/// noise is high. So each part's value is taken of the cell that the others find. Their mean may be of cells that are
-/// not quite the highest; the highest of all means is above the truth: the interval holds both. Of cells that are alike
-/// to the others but for rounding, one is taken that is as high in the part itself.
-Interval extreme(const CellParts& parts, const std::vector<double>& means, std::size_t found, double rounding,
+/// noise is high. So half of the replicates choose a cell, and the other half measures it, and the other way round:
+/// that is not above the highest but for chance. It may be of another cell, which is lower. The highest of all means,
+/// at `found`, is not below the highest but for chance. The interval goes from the one to the other. Of cells that are
+/// alike to a half but for rounding, the one is taken that is highest to all.
+Interval extreme(const CellValues& values_of, const std::vector<double>& means, std::size_t found, double rounding,
                  const std::function<bool(double, double)>& better) {
-  Parts values;
-  std::vector<double> of_others(means.size());
-  for (std::size_t part = 0; part < parts_count; ++part) {
+  constexpr std::size_t half = replicates / 2;
+  double mean = 0, square = 0;
+  std::vector<double> chosen_by(means.size());
+  for (std::size_t chooser = 0; chooser < 2; ++chooser) {
     double best = 0;
     for (std::size_t cell = 0; cell < means.size(); ++cell) {
-      of_others[cell] = (means[cell] * parts_count - parts(part, cell)) / (parts_count - 1);
-      if (cell == 0 || better(of_others[cell], best)) best = of_others[cell];
+      chosen_by[cell] = 0;
+      for (std::size_t r = 0; r < half; ++r) chosen_by[cell] += values_of(2 * r + chooser, cell) / half;
+      if (cell == 0 || better(chosen_by[cell], best)) best = chosen_by[cell];
     }
     std::optional<std::size_t> chosen;
     for (std::size_t cell = 0; cell < means.size(); ++cell)
-      if (std::abs(of_others[cell] - best) <= 2 * rounding * best && (!chosen || better(means[cell], means[*chosen])))
+      if (std::abs(chosen_by[cell] - best) <= 2 * rounding * best && (!chosen || better(means[cell], means[*chosen])))
         chosen = cell;
-    values[part] = parts(part, *chosen);
+    std::array<double, half> values;
+    double of_half = 0;
+    for (std::size_t r = 0; r < half; ++r) of_half += (values[r] = values_of(2 * r + 1 - chooser, *chosen));
+    for (const double value : values) square += std::pow(value - of_half / half, 2);
+    mean += of_half / replicates;
   }
-  Interval interval = interval_of(values, rounding);
-  interval.low = std::min(interval.low, means[found] * (1 - rounding));
-  interval.high = std::max(interval.high, means[found] * (1 + rounding));
-  return interval;
+  const double half_width =
+      students_t(replicates - 1) * std::sqrt(square / ((replicates - 2) * replicates)) + rounding * std::abs(mean);
+  const Interval own = interval_of(values_of.cell(found), rounding);
+  if (better(1, 0)) return {own.value, std::min(mean - half_width, own.value), own.high};
+  return {own.value, own.low, std::max(mean + half_width, own.value)};
 }
 
-Numbers numbers_of(const CellParts& parts, const scene::MeterSurface& surface, double area_m2) {
+Numbers numbers_of(const CellValues& values_of, const scene::MeterSurface& surface, double area_m2) {
   const std::vector<double>& areas = surface.areas;
   Numbers numbers;
-  std::vector<double> means(parts.cells(), 0);
-  Parts of_all{};
+  std::vector<double> means(values_of.cells(), 0);
+  Replicates of_all{};
   double area = 0;
   for (std::size_t cell = 0; cell < means.size(); ++cell) {
     area += areas[cell];
-    for (std::size_t part = 0; part < parts_count; ++part) {
-      const double value = parts(part, cell);
-      means[cell] += value / parts_count;
-      of_all[part] += value * areas[cell];
+    for (std::size_t r = 0; r < replicates; ++r) {
+      const double value = values_of(r, cell);
+      means[cell] += value / replicates;
+      of_all[r] += value * areas[cell];
     }
   }
   for (double& value : of_all) value /= area;
@@ -87,8 +96,8 @@ Numbers numbers_of(const CellParts& parts, const scene::MeterSurface& surface, d
   numbers.total = {numbers.mean.value * area_m2, numbers.mean.low * area_m2, numbers.mean.high * area_m2};
   numbers.peak_cell = static_cast<std::size_t>(std::ranges::max_element(means) - means.begin());
   const auto least_cell = static_cast<std::size_t>(std::ranges::min_element(means) - means.begin());
-  numbers.peak = extreme(parts, means, numbers.peak_cell, surface.rounding, std::greater());
-  numbers.least = extreme(parts, means, least_cell, surface.rounding, std::less());
+  numbers.peak = extreme(values_of, means, numbers.peak_cell, surface.rounding, std::greater());
+  numbers.least = extreme(values_of, means, least_cell, surface.rounding, std::less());
   numbers.least.low = std::max(numbers.least.low, 0.0);
   if (numbers.mean.low > 0)
     numbers.uniformity = {numbers.least.value / numbers.mean.value, numbers.least.low / numbers.mean.high,
@@ -104,12 +113,12 @@ LayerReading layer_reading(std::string name, std::span<const double> both, const
   layer.name = std::move(name);
   for (const Quantity quantity : quantities) {
     const auto q = static_cast<std::size_t>(quantity);
-    const CellParts parts(both, quantity);
-    layer.of[q] = numbers_of(parts, surface, area_m2);
+    const CellValues values_of(both, quantity);
+    layer.of[q] = numbers_of(values_of, surface, area_m2);
     layer.cells[q].resize(surface.count());
     for_ranges(surface.count(), 1 << 12, [&](std::size_t, Range range) {
       for (std::size_t cell = range.begin; cell < range.end; ++cell)
-        layer.cells[q][cell] = interval_of(parts.of(cell), surface.rounding);
+        layer.cells[q][cell] = interval_of(values_of.cell(cell), surface.rounding);
     });
   }
   return layer;
@@ -130,13 +139,12 @@ Interval share_above(const std::vector<Interval>& cells, const std::vector<doubl
 
 } // namespace
 
-Interval interval_of(std::span<const double> parts, double rounding) {
-  const auto count = static_cast<double>(parts.size());
+Interval interval_of(std::span<const double> values, double rounding) {
+  const auto count = static_cast<double>(values.size());
   double mean = 0, square = 0;
-  for (const double part : parts) mean += part / count;
-  for (const double part : parts) square += (part - mean) * (part - mean);
-  const double half =
-      students_t(parts.size()) * std::sqrt(square / (count * (count - 1))) + rounding * std::abs(mean);
+  for (const double value : values) mean += value / count;
+  for (const double value : values) square += (value - mean) * (value - mean);
+  const double half = students_t(values.size()) * std::sqrt(square / (count * (count - 1))) + rounding * std::abs(mean);
   return {mean, mean - half, mean + half};
 }
 
@@ -144,12 +152,12 @@ Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, dou
              const std::vector<photons::MeterLayer>& layers) {
   Reading reading;
   for (const double area : surface.areas) reading.area_m2 += area * metres_per_unit * metres_per_unit;
-  std::vector<double> all(2 * parts_count * surface.count(), 0);
+  std::vector<double> all(2 * replicates * surface.count(), 0);
   for (const photons::MeterLayer& layer : layers)
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] += layer.parts[i];
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] += layer.replicates[i];
   reading.layers.push_back(layer_reading("all", all, surface, reading.area_m2));
   for (const photons::MeterLayer& layer : layers)
-    reading.layers.push_back(layer_reading(layer.name, layer.parts, surface, reading.area_m2));
+    reading.layers.push_back(layer_reading(layer.name, layer.replicates, surface, reading.area_m2));
   if (meter.threshold) {
     const preset::Quantity threshold = *preset::quantity_in(*meter.threshold); // preset::check has looked
     const auto q = static_cast<std::size_t>(quantity_of(threshold.unit));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a meter shows: numbers of its cells, each with a 95 % interval. The intervals come of the run's eight independent
-// parts by Student's t. They hold for what the run computes: paths that it cuts off are told by themselves
+// What a meter shows: numbers of its cells, each with a 95 % interval. The intervals come of the run's eight
+// independent parts by Student's t. They hold for what the run computes: paths that it cuts off are told by themselves
 // (photons::MeterRun::lost_share).
 #pragma once
 #include "photons/meter.h"
@@ -23,7 +23,7 @@ struct Interval {
 };
 
 /// The mean of independent values of one distribution. rounding: that much of it is added each way.
-Interval interval_of(std::span<const double> parts, double rounding);
+Interval interval_of(std::span<const double> replicates, double rounding);
 
 /// Irradiance in W/m^2 and illuminance in lux.
 enum class Quantity { irradiance, illuminance };
@@ -31,16 +31,16 @@ inline constexpr std::array quantities{Quantity::irradiance, Quantity::illuminan
 
 /// Of one quantity, over all cells of a meter.
 struct Numbers {
-  Interval mean; ///< by area
-  Interval total; ///< W or lm: the mean times the area
+  Interval mean;        ///< by area
+  Interval total;       ///< W or lm: the mean times the area
   Interval peak, least; ///< of cells
-  Interval uniformity; ///< least over mean
+  Interval uniformity;  ///< least over mean
   std::size_t peak_cell = 0;
 };
 
 struct LayerReading {
-  std::string name; ///< "all", or the layer's
-  std::array<Numbers, 2> of; ///< [Quantity]
+  std::string name;                           ///< "all", or the layer's
+  std::array<Numbers, 2> of;                  ///< [Quantity]
   std::array<std::vector<Interval>, 2> cells; ///< [Quantity][cell]
   const Numbers& numbers(Quantity quantity) const { return of[static_cast<std::size_t>(quantity)]; }
 };

@@ -12,15 +12,20 @@
 namespace nephroid::photons {
 namespace {
 
+/// NEPHROID_SKY of the kernel.
+enum class Sky { without, with_lamps, alone };
+
 /// Paths that find lamps, and light on receivers where that is kept. Without `direct` they find the latter alone, and
 /// the stage's own film is that of caustics.
 class PathStage final : public EyeStage {
 public:
-  PathStage(StageContext& world, const char* name, const char* layer, const Settings& settings, bool direct)
+  PathStage(StageContext& world, const char* name, const char* layer, const Settings& settings, bool direct,
+            Sky of_sky = Sky::with_lamps)
       : EyeStage(world, name, layer, settings), no_table_(world.context, "no receivers", 0),
         no_totals_(world.context, "no receivers", 0), no_film_(world.context, "no receivers", 0) {
     compute::Defines defines = world.eye_defines(true);
     defines["NEPHROID_DIRECT"] = std::to_string(int(direct));
+    defines["NEPHROID_SKY"] = std::to_string(int(of_sky));
     kernel_ = compute::Program(world.context, "photons/direct.cl", defines).kernel("direct");
     if (!world.receivers) return;
     const auto make = [&](const char* film) {
@@ -81,8 +86,19 @@ private:
   compute::Buffer<std::int64_t> no_film_;
 };
 
-std::unique_ptr<Stage> make_direct_stage(StageContext& world, const scene::Scene&, const Settings& settings) {
-  return std::make_unique<PathStage>(world, "direct", "direct", settings, true);
+std::unique_ptr<Stage> make_direct_stage(StageContext& world, const scene::Scene& scene, const Settings& settings) {
+  return std::make_unique<PathStage>(world, "direct", "direct", settings, true,
+                                     scene.camera.meter ? Sky::without : Sky::with_lamps);
+}
+
+std::unique_ptr<Stage> make_sky_stage(StageContext& world, const scene::Scene&, const Settings& settings) {
+  return std::make_unique<PathStage>(world, "sky", "sky", settings, true, Sky::alone);
+}
+
+/// A meter has a layer of its own for what the environment sends to it straight.
+PlanPart plan_sky(const PlanInput& input) {
+  if (!input.scene.camera.meter || !input.tables.sky) return {};
+  return part_of({"sky", true, "what the environment sends to a meter straight"}, {{"film sky", input.film_bytes()}});
 }
 
 /// What the paths of the layer "direct" have found of caustics.
@@ -174,6 +190,7 @@ PlanPart plan_receivers(const PlanInput& input) {
 } // namespace
 
 const RunPart direct_stage{plan_direct, make_direct_stage, "direct"};
+const RunPart sky_stage{plan_sky, make_sky_stage, "sky"};
 const RunPart receiver_stage{plan_receivers, make_receiver_stage, "caustic"};
 
 } // namespace nephroid::photons

@@ -51,8 +51,8 @@ class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
             const mpi::RankContext& context)
-      : world_(make_stage_context(preset, scene, bvh, plan, context)),
-        preset_(preset), why_no_layers_(plan.why_no_layers), passes_(plan.tables.batches),
+      : world_(make_stage_context(preset, scene, bvh, plan, context)), preset_(preset),
+        why_no_layers_(plan.why_no_layers), passes_(plan.tables.batches),
         preview_(world_, edges_of_previews(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(world_, plan, scene, bvh), !plan.runs(tile_stage),
                      plan.settings.smoothing == Settings::Smoothing::automatic),

@@ -5,6 +5,7 @@
 #include "photons/plan_part.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace nephroid::photons {
 namespace {
@@ -14,6 +15,7 @@ public:
   Run(const preset::Preset& preset, const scene::Scene& view, const scene::Bvh& bvh, const RunPlan& plan,
       const mpi::RankContext& context)
       : world_(make_stage_context(preset, view, bvh, plan, context)), passes_(plan.tables.batches) {
+    world_.white = 1; // numbers, not a picture
     for (const RunPart* part : plan.parts)
       if (part->make) passes_.add(part->make(world_, view, plan.settings), part->layer);
     passes_.warm_up(world_);
@@ -22,7 +24,7 @@ public:
   void advance() override {
     if (!passes_.stages().empty()) passes_.advance();
   }
-  std::int64_t rounds() const override { return passes_.complete() / meter_parts; }
+  std::int64_t cycles() const override { return passes_.complete() / meter_replicates; }
   std::uint64_t photons() const override { return passes_.photons(); }
   double work_seconds() const override { return passes_.work_seconds(); }
 
@@ -34,9 +36,9 @@ public:
     std::vector<MeterLayer> layers;
     for (const job::Layer& layer : picture.layers) {
       MeterLayer& to = layers.emplace_back(MeterLayer{layer.name, {}});
-      to.parts.reserve(layer.parts.size() / 3 * 2);
-      for (std::size_t i = 0; i < layer.parts.size(); i += 3)
-        for (std::size_t c = 0; c < 2; ++c) to.parts.push_back(std::numbers::pi * layer.parts[i + c]);
+      to.replicates.reserve(layer.replicates.size() / 3 * 2);
+      for (std::size_t i = 0; i < layer.replicates.size(); i += 3)
+        for (std::size_t c = 0; c < 2; ++c) to.replicates.push_back(std::numbers::pi * layer.replicates[i + c]);
     }
     return layers;
   }
@@ -61,12 +63,12 @@ RunPlan plan_meter(const preset::Preset& preset, const Settings& wanted, const s
   settings.smoothing = Settings::Smoothing::off;
   settings.relight = settings.background = false;
   settings.indirect = wanted.indirect.value_or(true);
-  // Short passes: there is a first interval after a round of them.
-  settings.photons_per_pass = std::max(wanted.photons_per_pass / static_cast<int>(meter_parts), 1);
-  settings.indirect_photons_per_pass = std::max(wanted.indirect_photons_per_pass / static_cast<int>(meter_parts), 1);
+  // Short passes: there is a first interval after a cycle of them.
+  settings.photons_per_pass = std::max(wanted.photons_per_pass / static_cast<int>(meter_replicates), 1);
+  settings.indirect_photons_per_pass =
+      std::max(wanted.indirect_photons_per_pass / static_cast<int>(meter_replicates), 1);
   settings.pixel_samples = 1 << 20; // a cell has light and shadow, also of lamps that are points
   preset::Preset measured = preset;
-  measured.white = 1;
   measured.measure.estimate = true;
   return make_plan(measured, settings, view, bvh, {.all = preset.leave_out});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A meter of the preset (scene/meter.h) as a run: photons and paths from its cells, in eight independent parts.
+// A meter of the preset (scene/meter.h) as a run: photons and paths from its cells, in eight independent replicates.
 #pragma once
 #include "mpi/rank_context.h"
 #include "photons/plan.h"
@@ -14,9 +14,9 @@ namespace nephroid::photons {
 
 /// Light that reaches a meter in one way.
 struct MeterLayer {
-  std::string name; ///< "direct", "caustic", "indirect"
-  /// [part][cell][2]: irradiance in W/m^2, and as an eye sees it (Y, no factor 683).
-  std::vector<double> parts;
+  std::string name; ///< "direct": of lamps; "sky": both straight; "caustic", "indirect"
+  /// [replicate][cell][2]: irradiance in W/m^2, and as an eye sees it (Y, no factor 683).
+  std::vector<double> replicates;
 };
 
 class MeterRun {
@@ -24,15 +24,15 @@ public:
   virtual ~MeterRun() = default;
   /// Does one slice of about 30 ms.
   virtual void advance() = 0;
-  /// In a round each part has one pass.
-  virtual std::int64_t rounds() const = 0;
+  /// In a cycle each replicate has one pass.
+  virtual std::int64_t cycles() const = 0;
   /// Photons sent so far.
   virtual std::uint64_t photons() const = 0;
   /// Seconds of work.
   virtual double work_seconds() const = 0;
-  /// Right after a round.
+  /// Right after a cycle.
   virtual std::vector<MeterLayer> layers() = 0;
-  /// Parts of the photons' power that met too many surfaces, and their number that a film refused.
+  /// The part of the photons' power that met too many surfaces.
   virtual double lost_share() = 0;
 };
 

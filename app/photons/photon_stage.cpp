@@ -22,9 +22,9 @@ namespace {
 constexpr double least_gain = 1.5;
 
 /// The first batch whose photons are allocated by measurements: after half a pass, as fewer photons show too little,
-/// and after as many batches of each part of the film.
-std::int64_t first_reallocation(unsigned batches, unsigned parts) {
-  return std::max<std::int64_t>({batches / 2, 2, parts});
+/// and after one batch of each replicate.
+std::int64_t first_reallocation(unsigned batches, unsigned replicates) {
+  return std::max<std::int64_t>({batches / 2, 2, replicates});
 }
 
 class PhotonStage final : public Stage {
@@ -93,7 +93,8 @@ private:
   void advance_to(std::int64_t pass, std::int64_t end) {
     const RunTables& t = world_.tables;
     const std::int64_t batch = pass * t.batches + batch_;
-    if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches, world_.halves) && allocation_.is_due(batch))
+    if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches, world_.halves) &&
+        allocation_.is_due(batch))
       reallocate(batch);
     // A batch that may be reallocated, of a number that is a power of 2, begins a slice.
     const std::int64_t reallocated = static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(batch) + 1)),
@@ -148,7 +149,8 @@ private:
     guide_.learn(world_.context.all_reduced_sum(guide_moments_), photons,
                  static_cast<double>(batch - allocation_.first_iteration()));
     allocation_.reallocate(batch, world_.context.all_reduced_sum(moments_), world_.halves);
-    if (!insists_ && batch > first_reallocation(world_.tables.batches, world_.halves) && allocation_.gain() < least_gain) {
+    if (!insists_ && batch > first_reallocation(world_.tables.batches, world_.halves) &&
+        allocation_.gain() < least_gain) {
       by_variance_ = false;
       make_kernel();
       allocation_.restore_initial(batch, world_.halves);

@@ -160,6 +160,7 @@ std::vector<const RunPart*> parts_of(const Settings& settings) {
   const bool tiles = settings.estimator == Settings::Estimator::tiles;
   std::vector<const RunPart*> parts{&scene_part,
                                     settings.relight ? &layered_direct_stage : &direct_stage,
+                                    &sky_stage,
                                     settings.relight ? &layered_photon_stage
                                     : tiles          ? &tile_stage
                                                      : &photon_stage,

@@ -38,7 +38,7 @@ struct PlanInput {
 
   bool has_caustics() const { return caustics.runs || (tables.has_even_sky && settings.caustic); }
   bool is_sppm() const { return settings.estimator == Settings::Estimator::sppm; }
-  std::uint64_t halves() const { return scene.camera.meter ? meter_parts : estimate.runs ? 2 : 1; }
+  std::uint64_t halves() const { return scene.camera.meter ? meter_replicates : estimate.runs ? 2 : 1; }
   std::uint64_t pixels() const { return scene.camera.pixels(); }
   /// The bytes of a film of XYZ.
   std::uint64_t film_bytes() const { return halves() * 3 * sizeof(std::int64_t) * pixels(); }
@@ -68,8 +68,8 @@ struct RunPart {
 };
 
 /// The stages, each in its file NAME_stage.cpp.
-extern const RunPart direct_stage, photon_stage, receiver_stage, even_sky_stage, indirect_stage, indirect_photon_stage,
-    background_stage;
+extern const RunPart direct_stage, sky_stage, photon_stage, receiver_stage, even_sky_stage, indirect_stage,
+    indirect_photon_stage, background_stage;
 /// The stages in the place of photon_stage where photons are tiles, and where all are gathered.
 extern const RunPart tile_stage, sppm_stage;
 /// The stages in their place where layers are kept for another light.

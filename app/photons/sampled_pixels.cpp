@@ -76,7 +76,7 @@ private:
 
 SampledPixels::SampledPixels(const StageContext& world, std::int64_t enough, double paths)
     : world_(world), enough_(enough), paths_(paths), passes_(world.pixels.glass.empty() ? enough : preset::max_passes),
-      parts_(std::max(2u, world.halves)), counts_(std::size_t{parts_} * world.pixels.count),
+      replicates_(std::max(2u, world.halves)), counts_(std::size_t{replicates_} * world.pixels.count),
       rates_(world.pixels.count, first_rate(world)), left_(world.pixels.count),
       on_device_(world.context, "samples", static_cast<std::size_t>(most_samples_a_slice)) {}
 
@@ -84,8 +84,8 @@ std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) con
   const std::int64_t rate = rates_[pixel];
   const std::int64_t wanted = rate > 0 ? rate : (pass + turn_of(pixel)) % -rate == 0 ? 1 : 0;
   if (world_.pixels.may_show_glass[pixel]) return wanted;
-  const std::int64_t part = pass % parts_, most = (enough_ + parts_ - 1 - part) / parts_;
-  return std::clamp<std::int64_t>(most - counts_[pixel * parts_ + static_cast<std::size_t>(part)], 0, wanted);
+  const std::int64_t replicate = pass % replicates_, most = (enough_ + replicates_ - 1 - replicate) / replicates_;
+  return std::clamp<std::int64_t>(most - counts_[pixel * replicates_ + static_cast<std::size_t>(replicate)], 0, wanted);
 }
 
 void SampledPixels::take_next(std::int64_t pass, double amount) {
@@ -97,13 +97,14 @@ void SampledPixels::take_next(std::int64_t pass, double amount) {
   }
   next_.clear();
   const auto most = static_cast<std::size_t>(std::clamp(amount, 1.0, most_samples_a_slice));
-  const auto part = static_cast<std::uint32_t>(pass % parts_);
+  const auto replicate = static_cast<std::uint32_t>(pass % replicates_);
   for (; next_.size() < most && taken_ < wanted_; next_pixel_ = (next_pixel_ + 1) % std::ssize(left_)) {
     const auto pixel = static_cast<std::size_t>(next_pixel_);
     if (left_[pixel] == 0) continue;
     --left_[pixel];
     ++taken_;
-    next_.push_back({static_cast<std::uint32_t>(pixel), parts_ * counts_[pixel * parts_ + part]++ + part});
+    next_.push_back(
+        {static_cast<std::uint32_t>(pixel), replicates_ * counts_[pixel * replicates_ + replicate]++ + replicate});
   }
   next_count_ = next_.size();
   world_.context.communicator().keep_own_share(next_);

@@ -28,7 +28,7 @@ public:
 
   /// Calls work(samples, count) for the next samples of the pass, on the device: one of each pixel, then another of
   /// each that has more, ... x is the pixel, y the sample's number in it. Even numbers belong to the film's first half,
-  /// odd ones to the second; with more parts each has its turn. True when the pass is complete.
+  /// odd ones to the second; a meter's replicates each have their turn. True when the pass is complete.
   template <class Work>
   bool advance(std::int64_t pass, const Work& work) {
     take_next(pass, amount_.amount(world_.context.communicator()));
@@ -41,7 +41,7 @@ public:
   /// A pixel's samples, as Film::samples.
   std::array<double, 2> samples(std::size_t pixel) const {
     std::array<double, 2> halves{};
-    for (std::uint32_t part = 0; part < parts_; ++part) halves[part % 2] += counts_[pixel * parts_ + part];
+    for (std::uint32_t i = 0; i < replicates_; ++i) halves[i % 2] += counts_[pixel * replicates_ + i];
     return halves;
   }
 
@@ -66,8 +66,8 @@ private:
   std::int64_t enough_;
   double paths_;
   std::int64_t passes_;
-  std::uint32_t parts_;               ///< of the film: at least two
-  std::vector<std::uint32_t> counts_; ///< [pixel][part]: samples in passes of that part
+  std::uint32_t replicates_;            ///< of the film: two halves at least
+  std::vector<std::uint32_t> counts_;   ///< [pixel][replicate]: samples in its passes
   std::vector<std::int16_t> rates_;     ///< [pixel]: n > 0: n samples a pass; n < 0: one sample in every -n passes
   std::vector<std::uint8_t> left_;      ///< [pixel]: samples that it still has in the current pass
   std::int64_t taken_ = 0, wanted_ = 0; ///< samples of all pixels in it

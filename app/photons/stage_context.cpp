@@ -29,7 +29,7 @@ StageContext make_stage_context(const preset::Preset& preset, const scene::Scene
                                 const RunPlan& plan, const mpi::RankContext& context) {
   StageContext world{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables,
                      preset.white.value_or(1),
-                     scene.camera.meter     ? meter_parts
+                     scene.camera.meter     ? meter_replicates
                      : plan.estimates_error ? 2u
                                             : 1u};
   world.energy = world.zeroed("energy", OUTCOME_COUNT);

@@ -46,7 +46,8 @@ struct SeenLight {
 struct StageContext : tracing::World {
   RunTables tables;
   double white = 1;
-  /// Independent parts of a film: 2 where the error is estimated (tracing/film.h), else 1; meter_parts for a meter.
+  /// Independent parts of a film: 2 where the error is estimated (tracing/film.h), else 1; meter_replicates for a
+  /// meter.
   unsigned halves = 2;
   compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters{};

@@ -115,6 +115,14 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
       throw bad_input(where(child(child(child(pointer, "transform"), "scale"), axis)),
                       fmt::format("is {}", o.transform.scale[axis]),
                       "expected a factor of at least 1e-06 or at most -1e-06", "for a thin object use a plate");
+  if (o.shape && o.shape->type == Shape::Type::curtain_wall) {
+    const Shape& s = *o.shape;
+    const double pane = std::min(s.size[0] / s.panes[0], s.size[1] / s.panes[1]);
+    if (s.gap > 0.99 * pane)
+      throw bad_input(where(child(child(pointer, "shape"), "gap")),
+                      fmt::format("is {:g}, and a pane with its gap is {:g} wide or high", s.gap, pane),
+                      "expected less: nothing is left of the panes");
+  }
   if (scene.materials.contains(o.material)) return;
   std::vector<std::string> names;
   for (const auto& [name, material] : scene.materials) names.push_back(name);

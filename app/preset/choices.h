@@ -63,12 +63,14 @@ inline constexpr Choice<Shape::Type> choices<Shape::Type>[] = {
     {Shape::Type::prism, "prism", "A prism along y whose cross-section is an isosceles triangle."},
     {Shape::Type::plate, "plate", "A plane-parallel plate, y thick."},
     {Shape::Type::brilliant, "brilliant", "A brilliant-cut stone with its table up."},
+    {Shape::Type::curtain_wall, "curtain_wall", "A front of glass panes that faces +z, straight or on an arc."},
     {Shape::Type::water, "water", "A box of water with waves on it, which wind has raised."},
     {Shape::Type::relief, "relief", "A box whose top has the heights of a picture."}};
 
 template <>
 inline constexpr Choice<Object::Normals> choices<Object::Normals>[] = {
-    {Object::Normals::given, "given", "Those of the mesh file; where it has none, and of a shape: faceted."},
+    {Object::Normals::given, "given",
+     "Those of the mesh file, and of pillowed panes; where there are none, and of a shape: faceted."},
     {Object::Normals::faceted, "faceted", "Every triangle is flat."},
     {Object::Normals::smooth, "smooth",
      "Normals are interpolated between the corners of a triangle; where a file has none, they are made."}};

@@ -121,6 +121,15 @@ void describe(Fields& v, Shape& s) {
   if (s.type == Type::box || s.type == Type::plate) length("size", "Edge lengths along x, y and z.", s.size);
   if (s.type == Type::water) length("size", "Edge lengths along x, y and z at rest; y is the depth.", s.size);
   if (s.type == Type::relief) length("size", "Edge lengths along x, y and z; y where the picture is black.", s.size);
+  if (s.type == Type::curtain_wall) {
+    length("size", "Its width along the arc and its height; the last number is not used.", s.size);
+    v.field("arc_deg", "How much it bends from edge to edge; above 0 its front is hollow.", s.arc_deg,
+            {.unit = "degrees", .bounds = within(-180, 180)});
+    v.field("panes", "How many panes there are along x and y.", s.panes, {.bounds = within(1, 1000)});
+    v.field("gap", "Between panes.", s.gap, {.unit = length_unit, .bounds = within(0, 1e6)});
+    v.field("pillow", "How far the middle of a pane stands out at the front; below 0 it is dented.", s.pillow,
+            {.unit = length_unit, .bounds = within(-1e6, 1e6)});
+  }
   if (s.type == Type::sphere || s.type == Type::cylinder) length("radius", "Radius.", s.radius);
   if (s.type == Type::brilliant) length("radius", "Radius of the girdle.", s.radius);
   if (s.type == Type::cylinder || s.type == Type::prism) length("height", "Length along y.", s.height);

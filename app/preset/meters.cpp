@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace nephroid::preset {
 
@@ -26,7 +27,8 @@ std::optional<Quantity> quantity_in(std::string_view text) {
   for (const auto& choice : choices<Meter::Unit>) {
     if (!text.ends_with(choice.name)) continue;
     const std::string number(trimmed(text.substr(0, text.size() - choice.name.size())));
-    if (const auto value = number_in<double>(number); value && *value >= 0) return Quantity{*value, choice.value};
+    if (const auto value = number_in<double>(number); value && *value >= 0 && std::isfinite(*value))
+      return Quantity{*value, choice.value};
   }
   return std::nullopt;
 }

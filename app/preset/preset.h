@@ -129,22 +129,27 @@ struct Transform {
 
 /// Shapes are centred on the origin; y is up. Every closed shape's triangles face outwards.
 struct Shape {
-  enum class Type { quad, box, sphere, cylinder, prism, plate, brilliant, water, relief };
+  enum class Type { quad, box, sphere, cylinder, prism, plate, brilliant, curtain_wall, water, relief };
   Type type = Type::sphere;
-  /// Edge lengths: quad (x by z, facing +y), box, plate (x by z, y thick); water at rest, relief where it is black.
+  /// Edge lengths: quad (x by z, facing +y), box, plate (x by z, y thick); water at rest, relief where it is black;
+  /// curtain_wall: x along its arc.
   Vec3 size{1, 1, 1};
-  double radius = 0.5;      ///< sphere, cylinder; brilliant: girdle radius
-  double height = 1;        ///< cylinder and prism: length along y; relief: how much higher white is than black
-  double apex_deg = 60;     ///< prism: angle between the two equal sides, whose edge is at +z
-  double side = 1;          ///< prism: length of the two equal sides
-  int segments = 256;       ///< cylinder: facets around; water, relief: squares along the longer edge
-  double wind_m_s = 3;      ///< water: ten metres above it; 0: it is at rest
-  double wind_deg = 0;      ///< water: where the wind goes to, counterclockwise from +x as seen from above
-  double fetch_m = 100;     ///< water: how long the wind has blown over it
-  double time_s = 0;        ///< water
-  std::uint64_t seed = 1;   ///< water: which waves of those that this wind may raise
-  std::string picture = {}; ///< relief: a picture file, whose green is the height; its top is at -z
-  bool inwards = false;     ///< turn every triangle round, e.g. for a room
+  double radius = 0.5;              ///< sphere, cylinder; brilliant: girdle radius
+  double height = 1;                ///< cylinder and prism: length along y; relief: how much higher white is than black
+  double apex_deg = 60;             ///< prism: angle between the two equal sides, whose edge is at +z
+  double side = 1;                  ///< prism: length of the two equal sides
+  int segments = 256;               ///< cylinder: facets around; water, relief: squares along the longer edge
+  double arc_deg = 0;               ///< curtain_wall: it bends as much from edge to edge; above 0 its front is hollow
+  std::array<int, 2> panes{20, 12}; ///< curtain_wall: along x and y
+  double gap = 0.05;                ///< curtain_wall: between panes
+  double pillow = 0;                ///< curtain_wall: how far the middle of a pane stands out, or below 0 is dented
+  double wind_m_s = 3;              ///< water: ten metres above it; 0: it is at rest
+  double wind_deg = 0;              ///< water: where the wind goes to, counterclockwise from +x as seen from above
+  double fetch_m = 100;             ///< water: how long the wind has blown over it
+  double time_s = 0;                ///< water
+  std::uint64_t seed = 1;           ///< water: which waves of those that this wind may raise
+  std::string picture = {};         ///< relief: a picture file, whose green is the height; its top is at -z
+  bool inwards = false;             ///< turn every triangle round, e.g. for a room
   bool operator==(const Shape&) const = default;
 };
 
@@ -280,18 +285,18 @@ struct Meter {
   enum class Unit { watts, kilowatts, lux, kilolux, suns };
   Type type = Type::plane;
   std::string name;
-  std::string object;             ///< surface: the name of the object, whose front it measures
-  std::optional<Vec3> facing;     ///< surface: only what faces this way, to 45 degrees
-  std::optional<Box> within;      ///< surface: only what is in here
-  Vec3 position{0, 0, 0};         ///< plane: its centre; point
-  Vec3 normal{0, 1, 0};           ///< plane, point: the side that light is measured on
-  Vec3 up{0, 0, -1};              ///< plane: the top of its map (projected)
-  std::array<double, 2> size{1, 1}; ///< plane: its width and its height along `up`
-  double diameter = 0.01;         ///< point: the edge of a square with the area of the meter's window
-  std::optional<double> cell;     ///< surface, plane: the edge of a cell; else a 64th of the longest edge
-  Unit unit = Unit::watts;        ///< what maps and the threshold's share are shown in
-  std::optional<std::string> threshold;  ///< with its unit: "2500 W/m^2"
-  std::optional<double> until_percent;   ///< the interval of mean and peak at which it has measured enough
+  std::string object;                   ///< surface: the name of the object, whose front it measures
+  std::optional<Vec3> facing;           ///< surface: only what faces this way, to 45 degrees
+  std::optional<Box> within;            ///< surface: only what is in here
+  Vec3 position{0, 0, 0};               ///< plane: its centre; point
+  Vec3 normal{0, 1, 0};                 ///< plane, point: the side that light is measured on
+  Vec3 up{0, 0, -1};                    ///< plane: the top of its map (projected)
+  std::array<double, 2> size{1, 1};     ///< plane: its width and its height along `up`
+  double diameter = 0.01;               ///< point: the edge of a square with the area of the meter's window
+  std::optional<double> cell;           ///< surface, plane: the edge of a cell; else a 64th of the longest edge
+  Unit unit = Unit::watts;              ///< what maps and the threshold's share are shown in
+  std::optional<std::string> threshold; ///< with its unit: "2500 W/m^2"
+  std::optional<double> until_percent;  ///< the interval of mean and peak at which it has measured enough
   bool operator==(const Meter&) const = default;
 };
 

@@ -71,14 +71,14 @@ Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, co
 
 bool Metering::advance() {
   MeterInHand& meter = meters_[next_];
-  const std::int64_t before = meter.run->rounds();
+  const std::int64_t before = meter.run->cycles();
   meter.run->advance();
-  if (meter.run->rounds() == before) return false;
-  // Rounds 1, 2, 3, 4, 6, 8, 12, ...: to read all cells takes a while, and who stops at the first lucky interval has
+  if (meter.run->cycles() == before) return false;
+  // Cycles 1, 2, 3, 4, 6, 8, 12, ...: to read all cells takes a while, and who stops at the first lucky interval has
   // one that is too small.
   next_ = (next_ + 1) % meters_.size();
-  const auto rounds = static_cast<std::uint64_t>(meter.run->rounds());
-  const bool is_due = std::has_single_bit(rounds) || (rounds % 3 == 0 && std::has_single_bit(rounds / 3));
+  const auto cycles = static_cast<std::uint64_t>(meter.run->cycles());
+  const bool is_due = std::has_single_bit(cycles) || (cycles % 3 == 0 && std::has_single_bit(cycles / 3));
   if (!is_due) return false;
   meter.reading =
       meters::read(meter.meter, meter.surface, prepared_.loaded->scene.metres_per_unit, meter.run->layers());

@@ -17,7 +17,7 @@ struct MeterInHand {
   glm::dvec3 origin{0}; ///< preset coordinates of the scene's (0, 0, 0)
   photons::RunPlan plan;
   std::unique_ptr<photons::MeterRun> run;
-  std::optional<meters::Reading> reading; ///< as of the last round; nothing before the first
+  std::optional<meters::Reading> reading; ///< as of the last cycle; nothing before the first
   double relative_half_width() const { return reading ? meters::relative_half_width(meter, *reading) : 1e9; }
 };
 
@@ -27,7 +27,7 @@ public:
   /// name, its engine has no scene, as scene::make_meter and photons::plan_meter; failed where memory lacks.
   Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only = {});
 
-  /// Does a slice of about 30 ms of the meter whose interval is widest for what is asked of it. True after a round of
+  /// Does a slice of about 30 ms of the meter whose interval is widest for what is asked of it. True after a cycle of
   /// it, which has made its reading anew.
   bool advance();
   /// Whether all have the intervals that they ask for, or `percent` where they ask for none.

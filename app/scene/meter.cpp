@@ -62,7 +62,8 @@ void add_ellipsoid(const Ellipsoid& e, std::vector<Facet>& facets) {
         unit.push_back(t);
       }
     }
-  const double half = std::hypot(std::numbers::pi / rings, 2 * std::numbers::pi / around) / 2, out = e.inwards ? 1 : 1 / std::cos(half);
+  const double half = std::hypot(std::numbers::pi / rings, 2 * std::numbers::pi / around) / 2,
+               out = e.inwards ? 1 : 1 / std::cos(half);
   const glm::dmat3 axes(glm::dvec3(e.half_axes[0]), glm::dvec3(e.half_axes[1]), glm::dvec3(e.half_axes[2]));
   const bool turns = (glm::determinant(axes) < 0) != e.inwards;
   for (const auto& t : unit) {
@@ -129,7 +130,7 @@ struct Builder {
         if (column + 1 < chart.columns) part = clipped(part, -chart.right, -(left + chart.cell_width));
         if (part.size() >= 3)
           places[chart.first + static_cast<std::size_t>(row * chart.columns + column)].emplace_back(std::move(part),
-                                                                                                   area_scale);
+                                                                                                    area_scale);
       }
     }
   }
@@ -227,8 +228,7 @@ void make_plane(const preset::Meter& meter, const Scene& scene, const Location& 
                height = point ? edge : meter.size[1];
   divide(chart, width, height, point ? edge : cell_of(meter, std::max(width, height)), meter, where);
   const glm::dvec3 centre = to_dvec3(meter.position) - scene.origin;
-  const double above =
-      lift * std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z), width, height});
+  const double above = lift * std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z), width, height});
   const glm::dvec3 from = centre - width / 2 * chart.right + height / 2 * chart.up;
   chart.left = glm::dot(from, chart.right);
   chart.top = glm::dot(from, chart.up);
@@ -354,11 +354,12 @@ void require_air(const MeterSurface& meter, const Scene& scene, const Location& 
     if (inside.empty()) continue;
     const std::string& name = scene.objects[static_cast<std::size_t>(inside.back())].name;
     if (meter.object == inside.back())
-      throw bad_input(where / "object", fmt::format("is {}, whose surface looks into its glass", preset::in_quotes(name)),
+      throw bad_input(where / "object",
+                      fmt::format("is {}, whose surface looks into its glass", preset::in_quotes(name)),
                       "expected an object that is not turned inwards");
     throw bad_input(where / (meter.object >= 0 ? "object" : "position"),
-                    fmt::format("a cell is inside of the glass {}", preset::in_quotes(name)), "expected a meter in the air",
-                    "move it, or turn its normal to the other side");
+                    fmt::format("a cell is inside of the glass {}", preset::in_quotes(name)),
+                    "expected a meter in the air", "move it, or turn its normal to the other side");
   }
 }
 
@@ -392,8 +393,7 @@ MeterSurface make_meter(const preset::Meter& meter, const Scene& scene, const Lo
     make_surface(meter, scene, where, builder);
   else
     make_plane(meter, scene, where, builder);
-  if (surface.count() == 0)
-    throw bad_input(where, "has no area", "expected a surface", "look at 'within' and 'size'");
+  if (surface.count() == 0) throw bad_input(where, "has no area", "expected a surface", "look at 'within' and 'size'");
   require_air(surface, scene, where);
   return surface;
 }

@@ -27,17 +27,17 @@ struct MeterChart {
 
 struct MeterSurface {
   std::string name;
-  int object = -1;                            ///< whose surface it is; -1: none's, it is in the air
-  bool is_flat = true;                        ///< in one plane, with one chart
-  double rounding = 4e-6; ///< of what it measures: single precision, and the facets that stand for an ellipsoid
-  int white = 0;                              ///< the object that its pieces are of, which has no other surface
-  std::vector<MeterChart> charts;             ///< at least one
-  std::vector<int> cells;                     ///< of each place of the charts' grids, rows from the top; -1: none
+  int object = -1;                ///< whose surface it is; -1: none's, it is in the air
+  bool is_flat = true;            ///< in one plane, with one chart
+  double rounding = 4e-6;         ///< of what it measures: single precision, and the facets that stand for an ellipsoid
+  int white = 0;                  ///< the object that its pieces are of, which has no other surface
+  std::vector<MeterChart> charts; ///< at least one
+  std::vector<int> cells;         ///< of each place of the charts' grids, rows from the top; -1: none
   std::vector<std::array<glm::vec3, 3>> pieces; ///< triangles, cell after cell, just above the surface
-  std::vector<std::uint32_t> first_piece;     ///< [cell + 1]
-  std::vector<float> chances;                 ///< [piece]: of it and those before it, in its cell; the last 1
-  std::vector<double> areas;                  ///< [cell], square units
-  std::vector<glm::dvec3> centres, normals;   ///< [cell]
+  std::vector<std::uint32_t> first_piece;       ///< [cell + 1]
+  std::vector<float> chances;                   ///< [piece]: of it and those before it, in its cell; the last 1
+  std::vector<double> areas;                    ///< [cell], square units
+  std::vector<glm::dvec3> centres, normals;     ///< [cell]
   std::size_t count() const { return areas.size(); }
 };
 
@@ -48,8 +48,8 @@ inline constexpr std::size_t most_meter_cells = std::size_t{1} << 18;
 /// there or is in the box, too many cells, a place inside of glass, a plane that looks into the object that it lies on.
 MeterSurface make_meter(const preset::Meter& meter, const Scene& scene, const Location& where);
 
-/// The scene as the meter sees it: a camera with a pixel for each cell. A pixel's radiance is its cell's irradiance over
-/// pi. Its colours are watts, what the eye makes of them (Y), and 0.
+/// The scene as the meter sees it: a camera with a pixel for each cell. A pixel's radiance is its cell's irradiance
+/// over pi. Its colours are watts, what the eye makes of them (Y), and 0.
 Scene meter_view(Scene scene, MeterSurface meter);
 
 /// A rectangle in a plane.

@@ -100,9 +100,9 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
   result.name = object.name;
   result.material = pending.material;
   result.priority = object.priority;
-  result.smooth =
-      !placed.mesh.triangles.empty() && (object.normals == Normals::smooth ||
-                                         (object.normals == Normals::given && object.mesh && placed.has_own_normals));
+  const bool gives_normals = object.mesh ? placed.has_own_normals : object.shape->pillow != 0;
+  result.smooth = !placed.mesh.triangles.empty() &&
+                  (object.normals == Normals::smooth || (object.normals == Normals::given && gives_normals));
   result.first_vertex = static_cast<std::uint32_t>(scene.geometry.positions.size());
   result.vertex_count = static_cast<std::uint32_t>(placed.mesh.positions.size());
   result.first_triangle = static_cast<std::uint32_t>(scene.geometry.triangles.size());

@@ -176,6 +176,53 @@ Mesh make_brilliant() {
   return mesh;
 }
 
+/// Panes are flat, each in the chord of its own part of the arc, or pillows: z = pillow (1 - u^2) (1 - v^2) over u and
+/// v from -1 to 1. A pane has a texture of its own.
+Mesh make_curtain_wall(const preset::Shape& shape) {
+  constexpr int squares = 8; // along the edge of a pillow
+  const double arc = shape.arc_deg * radians, width = shape.size[0], height = shape.size[1];
+  const auto [columns, rows] = shape.panes;
+  const double along = width / columns, upward = height / rows; // of a pane with its gap
+  const double depth = arc == 0 ? 0 : width / arc * (1 - std::cos(arc / 2));
+  const int edge = shape.pillow == 0 ? 1 : squares;
+  Mesh mesh;
+  for (int column = 0; column < columns; ++column) {
+    // The pane's middle is on a chord of the arc.
+    const double turn = arc * ((column + 0.5) / columns - 0.5), step = arc / columns;
+    const double chord = arc == 0 ? along : 2 * width / arc * std::sin(step / 2);
+    const glm::dvec3 right(std::cos(turn), 0, std::sin(turn)), out(-std::sin(turn), 0, std::cos(turn));
+    glm::dvec3 middle((column + 0.5) * along - width / 2, 0, 0);
+    if (arc != 0) {
+      const double radius = width / arc;
+      middle = glm::dvec3(0, 0, radius - depth / 2) - radius * std::cos(step / 2) * out;
+    }
+    const double half_x = (chord - shape.gap) / 2, half_y = (upward - shape.gap) / 2;
+    for (int row = 0; row < rows; ++row) {
+      const glm::dvec3 at = middle + glm::dvec3(0, height / 2 - (row + 0.5) * upward, 0);
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      for (int j = 0; j <= edge; ++j)
+        for (int i = 0; i <= edge; ++i) {
+          const double u = 2.0 * i / edge - 1, v = 2.0 * j / edge - 1, slope_x = -2 * u * (1 - v * v),
+                       slope_y = -2 * v * (1 - u * u);
+          mesh.positions.emplace_back(at + u * half_x * right + glm::dvec3(0, v * half_y, 0) +
+                                      shape.pillow * (1 - u * u) * (1 - v * v) * out);
+          mesh.normals.emplace_back(glm::normalize(out - shape.pillow * slope_x / half_x * right -
+                                                   glm::dvec3(0, shape.pillow * slope_y / half_y, 0)));
+        }
+      const auto corner = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (edge + 1) + i); };
+      const auto place = [&](int i, int j) { return glm::vec2(i, j) / static_cast<float>(edge); };
+      for (int j = 0; j < edge; ++j)
+        for (int i = 0; i < edge; ++i) {
+          mesh.triangles.emplace_back(corner(i, j), corner(i + 1, j), corner(i + 1, j + 1));
+          mesh.triangles.emplace_back(corner(i, j), corner(i + 1, j + 1), corner(i, j + 1));
+          mesh.texcoords.push_back({place(i, j), place(i + 1, j), place(i + 1, j + 1)});
+          mesh.texcoords.push_back({place(i, j), place(i + 1, j + 1), place(i, j + 1)});
+        }
+    }
+  }
+  return mesh;
+}
+
 Mesh make_outward(const preset::Shape& shape) {
   switch (shape.type) {
   case preset::Shape::Type::quad: return make_quad(shape.size[0], shape.size[2]);
@@ -189,6 +236,7 @@ Mesh make_outward(const preset::Shape& shape) {
     for (glm::vec3& position : mesh.positions) position *= static_cast<float>(shape.radius);
     return mesh;
   }
+  case preset::Shape::Type::curtain_wall: return make_curtain_wall(shape);
   case preset::Shape::Type::water:
   case preset::Shape::Type::relief: break; // heights.h
   }

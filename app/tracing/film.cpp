@@ -16,16 +16,16 @@ optics::Colour blend(const std::int64_t* a, double weight_a, const std::int64_t*
   return optics::xyz_to_linear_srgb(xyz);
 }
 
-/// A film with more parts than two.
-void add_parts(const Film& film, std::size_t pixels, job::Layer& layer) {
-  const std::size_t parts = film.sums.size() / (3 * pixels);
-  layer.parts.resize(film.sums.size());
+/// A film with more than two replicates.
+void add_replicates(const Film& film, std::size_t pixels, job::Layer& layer) {
+  const std::size_t replicates = film.sums.size() / (3 * pixels);
+  layer.replicates.resize(film.sums.size());
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     const auto [even, odd] = film.samples(pixel);
-    const double scale = even + odd > 0 ? static_cast<double>(parts) / ((even + odd) * film.quanta_per_unit) : 0;
-    for (std::size_t part = 0; part < parts; ++part)
-      for (std::size_t i = 3 * (part * pixels + pixel), c = 0; c < 3; ++c)
-        layer.parts[i + c] += static_cast<double>(film.sums[i + c]) * scale;
+    const double scale = even + odd > 0 ? static_cast<double>(replicates) / ((even + odd) * film.quanta_per_unit) : 0;
+    for (std::size_t replicate = 0; replicate < replicates; ++replicate)
+      for (std::size_t i = 3 * (replicate * pixels + pixel), c = 0; c < 3; ++c)
+        layer.replicates[i + c] += static_cast<double>(film.sums[i + c]) * scale;
   }
 }
 
@@ -41,7 +41,7 @@ job::Layer& layer_of(job::Picture& picture, const std::string& name) {
 void add_layer(const std::string& name, const Film& film, job::Picture& picture) {
   const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   job::Layer& layer = layer_of(picture, name);
-  if (film.sums.size() > 6 * pixels) return add_parts(film, pixels, layer);
+  if (film.sums.size() > 6 * pixels) return add_replicates(film, pixels, layer);
   std::vector<float>& error_draw = picture.error_draw;
   const bool halves = film.sums.size() == 6 * pixels;
   const std::int64_t* first = film.sums.data();

@@ -16,9 +16,10 @@ inline constexpr double film_limit = 0x1p42;
 
 /// What a device added up.
 struct Film {
-  /// [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples. A meter's has more parts than two.
+  /// [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples. A meter's has replicates in the
+  /// place of halves.
   std::vector<std::int64_t> sums;
-  double quanta_per_unit = 1;     ///< quanta of what becomes 1 in the picture
+  double quanta_per_unit = 1; ///< quanta of what becomes 1 in the picture
   /// How many samples, batches or passes the sums of a pixel hold, in each half. Without halves all are in one image.
   std::function<std::array<double, 2>(std::size_t pixel)> samples;
 };
@@ -26,8 +27,8 @@ struct Film {
 /// The picture's layer of that name; a black one is made where there is none yet.
 job::Layer& layer_of(job::Picture& picture, const std::string& name);
 
-/// Adds the mean of the samples, 0 where there is none, to layer_of(picture, name); a meter's in each part, all of which
-/// have as many samples, to Layer::parts alone. Where the film has two halves a and
+/// Adds the mean of the samples, 0 where there is none, to layer_of(picture, name); a meter's in each replicate, all of
+/// which have as many samples, to Layer::replicates alone. Where the film has two halves a and
 /// b, also adds (a - b) sqrt(n_a n_b) / (n_a + n_b) to Picture::error_draw. It is cleared where a pixel lacks a half.
 void add_layer(const std::string& name, const Film& film, job::Picture& picture);
 

@@ -245,8 +245,7 @@ std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene
   std::vector<shared::DevicePrimitive> primitives(met + (meter ? meter->pieces.size() : 0));
   for_ranges(primitives.size(), 1 << 14, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      primitives[i] =
-          i < met ? device_primitive(scene, i) : device_triangle(meter->pieces[i - met], meter->white);
+      primitives[i] = i < met ? device_primitive(scene, i) : device_triangle(meter->pieces[i - met], meter->white);
   });
   return primitives;
 }

@@ -80,12 +80,14 @@ const float* reflectance_row(const WavelengthTables& tables, int reflector) {
 }
 
 /// Adds one row to each table of light, for a spectrum that a photon may carry.
-void add_spectrum_rows(const optics::ColourMatching& eye, const Spectrum& spectrum, const std::vector<int>& all, WavelengthTables& tables) {
+void add_spectrum_rows(const optics::ColourMatching& eye, const Spectrum& spectrum, const std::vector<int>& all,
+                       WavelengthTables& tables) {
   for (const int w : all) tables.light_xyz.push_back(to_float4(reflected(eye, spectrum, nullptr, {w})));
   for (const std::vector<int>& cluster : tables.clusters) {
     for (int r = 0; r < tables.reflector_count; ++r)
       tables.reflected_xyz.push_back(to_float4(reflected(eye, spectrum, reflectance_row(tables, r), cluster)));
-    if (tables.reflector_count == 0) tables.reflected_xyz.push_back(to_float4(reflected(eye, spectrum, nullptr, cluster)));
+    if (tables.reflector_count == 0)
+      tables.reflected_xyz.push_back(to_float4(reflected(eye, spectrum, nullptr, cluster)));
   }
   for (int r = 0; r < tables.reflector_count; ++r)
     tables.reflected_xyz_all.push_back(to_float4(reflected(eye, spectrum, reflectance_row(tables, r), all)));

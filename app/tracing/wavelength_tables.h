@@ -9,8 +9,8 @@
 namespace nephroid::tracing {
 
 // Items of the tables of kernels/tracing/scene_table_types.h.
-using shared::DeviceLight, shared::DeviceMaterial, shared::DeviceMeterChart, shared::DeviceObject, shared::DevicePrimitive, shared::DeviceTarget,
-    shared::DeviceTexture, shared::float4, shared::ushort;
+using shared::DeviceLight, shared::DeviceMaterial, shared::DeviceMeterChart, shared::DeviceObject,
+    shared::DevicePrimitive, shared::DeviceTarget, shared::DeviceTexture, shared::float4, shared::ushort;
 
 /// Everything that depends on wavelength, for `clusters` of the 401 wavelengths.
 struct WavelengthTables {

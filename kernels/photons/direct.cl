@@ -9,6 +9,10 @@
 #ifndef NEPHROID_DIRECT
 #define NEPHROID_DIRECT 1
 #endif
+// 0: the environment's light is left out. 1: all light. 2: all but that is left out. A meter tells them apart.
+#ifndef NEPHROID_SKY
+#define NEPHROID_SKY 1
+#endif
 #define NEPHROID_HIGHLIGHTS NEPHROID_DIRECT
 #define NEPHROID_PLACE_DIFFERENTIALS NEPHROID_RECEIVERS
 #include "kernels/photons/launch_types.h"
@@ -53,6 +57,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
                       Reflector reflector, const Band* band, uint2 seed, uint sample, uint paths, uint pixel) {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
+    if (is_of_environment(world, l) ? NEPHROID_SKY == 0 : NEPHROID_SKY == 2) continue;
     if (is_of_environment(world, l)) {
       const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, paths, pixel);
       const Source sky = {l, rgb / PI_F};

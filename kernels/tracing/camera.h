@@ -89,7 +89,7 @@ static inline void stand_on_lens(DeviceCamera* camera, uint pixel, float2 place,
 // A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that a pixel's numbers spread
 // evenly. Even and odd frames have starts and counts of their own, as the film's independent halves must.
 static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream) {
-  const uint half_of_frames = frame % NEPHROID_FILM_HALVES, step = frame / NEPHROID_FILM_HALVES * paths + path;
+  const uint half_of_frames = frame % SAMPLE_SEQUENCES, step = frame / SAMPLE_SEQUENCES * paths + path;
   const uint start = philox4x32((uint4)(pixel, half_of_frames, 0u, stream), seed).x;
   return (float)((start + step * 2654435769u) >> 8) * 0x1p-24f;
 }

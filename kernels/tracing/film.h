@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film: 64-bit fixed point, so that a sum has the same bits in any order and on every device.
 // A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. A meter's has
-// eight parts in their place.
+// eight replicates in their place.
 #ifndef NEPHROID_FILM_HALVES
 #define NEPHROID_FILM_HALVES 2
 #endif
+
+// Even and odd samples have random numbers of their own, also in a film of one image: a picture's bits are the same.
+#define SAMPLE_SEQUENCES (NEPHROID_FILM_HALVES > 2 ? NEPHROID_FILM_HALVES : 2)
 
 // One contribution may be at most 2^42 quanta: 2^20 of the largest still fit below 2^63.
 #define FILM_LIMIT 0x1p42f

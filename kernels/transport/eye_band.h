@@ -22,9 +22,9 @@ static inline uint parts_of_spectrum(uint number) {
 // parts, all at the same place in them, and then at the next by steps of the golden ratio.
 static inline float place_in_spectrum(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream,
                                       uint* parts) {
-  const uint number = (frame / NEPHROID_FILM_HALVES) * paths + path; // even and odd frames are the film's halves
+  const uint number = frame / SAMPLE_SEQUENCES * paths + path; // even and odd frames are the film's halves
   *parts = parts_of_spectrum(number);
-  const uint2 start = philox4x32((uint4)(pixel, frame % NEPHROID_FILM_HALVES, 0u, stream), seed).xy;
+  const uint2 start = philox4x32((uint4)(pixel, frame % SAMPLE_SEQUENCES, 0u, stream), seed).xy;
   const uint part = (number + start.y) & (*parts - 1u), // scattered: 1/2, 1/4, 3/4, ...
       scattered = *parts > 1u ? reverse_bits(part) >> (clz(*parts) + 1u) : 0u;
   const float within = (float)((start.x + number / *parts * 2654435769u) >> 8) * 0x1p-24f;

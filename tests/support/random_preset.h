@@ -90,6 +90,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     o.material = p.scene.materials.begin()->first;
     if (o.mesh.has_value() == o.shape.has_value()) o.mesh = "a.obj", o.shape.reset();
     if (o.shape) o.states.clear();
+    if (o.shape) o.shape->gap = 0;
     for (double& s : o.transform.scale) s = std::abs(s) < 1e-6 ? 1 : s;
   }
   Camera& camera = p.scene.camera;
@@ -106,6 +107,22 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     if (shining.name.empty()) shining.name = "it shines";
     shining.material = p.scene.materials.begin()->first;
     l.object = shining.name;
+  }
+  for (std::size_t i = 0; i < p.scene.meters.size(); ++i) {
+    Meter& meter = p.scene.meters[i];
+    meter.name = fmt::format("meter {}", i);
+    meter.normal = {0.1, -1, 1.0 / 3};
+    meter.up = {0, 0.2, 1};
+    if (meter.facing) meter.facing = {0.1, 1.0 / 3, 1};
+    if (meter.within) meter.within = Box{{-1, -2, -3}, {1, 1.0 / 3, 1}};
+    if (meter.threshold) meter.threshold = "2500 W/m^2";
+    if (meter.type != Meter::Type::surface) continue;
+    if (p.scene.objects.empty()) {
+      p.scene.objects.emplace_back().shape.emplace();
+      p.scene.objects.back().material = p.scene.materials.begin()->first;
+    }
+    if (p.scene.objects.front().name.empty()) p.scene.objects.front().name = "it is measured";
+    meter.object = p.scene.objects.front().name;
   }
   if (p.scene.lights.empty()) p.display.white_balance = Display::WhiteBalance::d65;
   if (auto& e = p.scene.environment; e && e->place) e->place->date = "2026-06-21", e->sun_direction.reset();

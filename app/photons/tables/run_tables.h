@@ -9,8 +9,8 @@
 
 namespace nephroid::photons {
 
-/// The independent parts of a meter's films, in the place of two halves: intervals are made of them.
-inline constexpr unsigned meter_parts = 8;
+/// The independent replicates of a meter's films, in the place of two halves: intervals are made of them.
+inline constexpr unsigned meter_replicates = 8;
 
 struct RunTables : tracing::SceneTables {
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one batch, allocated to lights and clusters

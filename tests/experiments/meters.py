@@ -1,0 +1,354 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the 95 % intervals of meters hold the truth: cases with closed forms, several seeds.
+
+usage: python meters.py PROGRAM [--seeds N] [--seconds S] [CASE...]
+
+Prints for each case the truth and how many of the intervals of mean, total, peak and cells hold it, and the sums.
+Light is 1 W and 1 m unless a case says otherwise. Needs numpy.
+"""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import tempfile
+
+import numpy
+
+GREY = {"type": "diffuse", "reflectance": 0.5}
+BLACK = {"type": "diffuse", "reflectance": 0}
+GLASS = {"type": "dielectric", "dispersion": 1.5}
+MIRROR = {"type": "mirror", "reflectance": 0.9}
+SUN = {"type": "directional", "irradiance_w_m2": 1}
+
+
+def preset(objects, lights, meter, materials=None, **scene):
+    named = {"grey": GREY, "black": BLACK, "glass": GLASS, "mirror": MIRROR} | (materials or {})
+    used = {o["material"] for o in objects}
+    return {"name": "case", "engine": "spectral", "unit": "m",
+            "scene": {"camera": {"position": [0, 3, 9]}, "materials": {k: v for k, v in named.items() if k in used},
+                      "objects": objects, "lights": lights, "meters": [{"name": "meter"} | meter]} | scene}
+
+
+def quad(material="black", size=2.0, at=(0, 0, 0), turn=(0, 0, 0), name="floor"):
+    return {"name": name, "shape": {"type": "quad", "size": [size, 1, size]}, "material": material,
+            "transform": {"translate": list(at), "rotate_deg": list(turn)}}
+
+
+def shape(kind, material, at=(0, 0, 0), name="object", turn=(0, 0, 0), **sizes):
+    return {"name": name, "shape": {"type": kind} | sizes, "material": material,
+            "transform": {"translate": list(at), "rotate_deg": list(turn)}}
+
+
+def plane(at=(0, 0, 0), normal=(0, 1, 0), size=(1, 1), cell=0.1, up=(0, 0, -1)):
+    return {"type": "plane", "position": list(at), "normal": list(normal), "size": list(size), "cell": cell,
+            "up": list(up)}
+
+
+def point_lamp(at, watts=1.0):
+    return {"type": "point", "power_w": watts, "position": list(at)}
+
+
+# Truths. A truth is a dictionary with some of "mean" (W/m^2), "mean_lx", "peak" and "cells", a function of a cell's row
+# in the table.
+
+def solid_angle(corners, eye):
+    """Of a triangle, signed (Van Oosterom and Strackee 1983)."""
+    a, b, c = (numpy.asarray(p, float) - eye for p in corners)
+    la, lb, lc = (numpy.linalg.norm(p) for p in (a, b, c))
+    return 2 * math.atan2(a @ numpy.cross(b, c), la * lb * lc + (a @ b) * lc + (a @ c) * lb + (b @ c) * la)
+
+
+def of_point(lamp, right, up, cell, watts=1.0):
+    """The mean over square cells along right and up of a point's light."""
+    lamp, right, up = (numpy.asarray(v, float) for v in (lamp, right, up))
+
+    def cells(row):
+        c = numpy.array([float(row[k]) for k in "xyz"])
+        a, b, d, e = (c + cell / 2 * (i * right + j * up) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+        flux = -(solid_angle((a, b, d), lamp) + solid_angle((a, d, e), lamp)) * watts / (4 * math.pi)
+        return max(flux, 0) / cell ** 2
+    return cells
+
+
+def of_area_lamp(lamp_y, edge, watts, normal, window=0.0, steps=120):
+    """A square lamp that faces down above the origin, on square windows: by quadrature."""
+    lamp = (numpy.arange(steps) + 0.5) / steps * edge - edge / 2
+    x, z = (v.ravel() for v in numpy.meshgrid(lamp, lamp))
+    normal = numpy.asarray(normal, float)
+    places = ((numpy.arange(16) + 0.5) / 16 - 0.5) * window if window else numpy.zeros(1)
+    radiance = watts / (math.pi * edge ** 2)
+
+    def at(p, right, up):
+        total = 0.0
+        for i in places:
+            for j in places:
+                q = p + i * right + j * up
+                way = numpy.stack([x - q[0], numpy.full_like(x, lamp_y - q[1]), z - q[2]], 1)
+                r2 = (way ** 2).sum(1)
+                total += (numpy.maximum(way @ normal, 0) * numpy.maximum(way[:, 1], 0) / r2 ** 2).mean() * edge ** 2
+        return radiance * total / len(places) ** 2
+    return at
+
+
+def fresnel(cosine, n):
+    """Of both polarisations, from air into n."""
+    sine2 = (1 - cosine ** 2) / n ** 2
+    inner = math.sqrt(1 - sine2)
+    s = ((cosine - n * inner) / (cosine + n * inner)) ** 2
+    p = ((n * cosine - inner) / (n * cosine + inner)) ** 2
+    return [s, p]
+
+
+def through_pane(angle_deg, n=1.5, is_thin=False):
+    """Of unpolarised light. At each face of a body reflectances are averaged, as the program does; a thin pane keeps
+    polarisations apart."""
+    kinds = fresnel(math.cos(math.radians(angle_deg)), n)
+    if not is_thin:
+        kinds = [sum(kinds) / 2]
+    return sum((1 - r) / (1 + r) for r in kinds) / len(kinds)
+
+
+def under_ball(radius, n, floor, half, cells, orders=5, steps=6000):
+    """W/m^2 on square cells under a ball in sunlight from above: every way with up to so many reflections inside."""
+    b = (numpy.arange(steps) + 0.5) / steps  # impact over the radius
+    flux = numpy.pi * radius ** 2 * (((numpy.arange(steps) + 1) ** 2 - numpy.arange(steps) ** 2) / steps ** 2)
+    i, r = numpy.arcsin(b), numpy.arcsin(b / n)
+    ci, cr = numpy.cos(i), numpy.cos(r)
+    reflected = (((ci - n * cr) / (ci + n * cr)) ** 2 + ((n * ci - cr) / (n * ci + cr)) ** 2) / 2
+    image = numpy.zeros((cells, cells))
+    turns = (numpy.arange(720) + 0.5) / 720 * 2 * numpy.pi
+    # Angles in the plane of the ray: it falls along -y at x = b. A chord moves the place by pi - 2 r around.
+    for order in range(-1, orders + 1):
+        part = reflected if order < 0 else (1 - reflected) ** 2 * reflected ** order
+        place = numpy.pi / 2 - i  # of the entry, from +x
+        if order >= 0:
+            place = place - (order + 1) * (numpy.pi - 2 * r)
+        way = place - i
+        x, y = radius * numpy.cos(place), radius * numpy.sin(place)
+        dx, dy = numpy.cos(way), numpy.sin(way)
+        down = dy < -1e-9
+        t = (floor - y[down]) / dy[down]
+        on = x[down] + t * dx[down]
+        for turn in turns:
+            c = numpy.floor((on * math.cos(turn) + half) / (2 * half) * cells).astype(int)
+            s = numpy.floor((on * math.sin(turn) + half) / (2 * half) * cells).astype(int)
+            good = (c >= 0) & (c < cells) & (s >= 0) & (s < cells)
+            numpy.add.at(image, (s[good], c[good]), (part * flux)[down][good] / len(turns))
+    return image / (2 * half / cells) ** 2
+
+
+def under_facade(width, height, arc_deg, columns, rows, gap, middle, sun, disc_deg, reflectance, corner, cell, counts):
+    """W/m^2 on square cells of the ground, of panes on an arc: each a mirror patch of the sun's disc."""
+    image = numpy.zeros(counts[0] * counts[1])
+    arc, radius = math.radians(arc_deg), width / math.radians(arc_deg)
+    pane = (2 * radius * math.sin(arc / columns / 2) - gap, height / rows - gap)
+    grid = (numpy.arange(40) + 0.5) / 40 - 0.5
+    golden = numpy.arange(400) + 0.5  # places on the disc, spread evenly
+    r, turn = numpy.sqrt(golden / 400) * math.tan(math.radians(disc_deg / 2)), golden * math.pi * (3 - math.sqrt(5))
+    sun = numpy.asarray(sun, float) / numpy.linalg.norm(sun)
+    aside = numpy.cross(sun, (0, 0, 1.0))
+    aside /= numpy.linalg.norm(aside)
+    rays = sun + (r * numpy.cos(turn))[:, None] * aside + (r * numpy.sin(turn))[:, None] * numpy.cross(sun, aside)
+    rays /= numpy.linalg.norm(rays, axis=1)[:, None]
+    depth = radius * (1 - math.cos(arc / 2))
+    for column in range(columns):
+        angle = arc * ((column + 0.5) / columns - 0.5)
+        out = numpy.array((-math.sin(angle), 0, math.cos(angle)))
+        right = numpy.array((math.cos(angle), 0, math.sin(angle)))
+        foot = numpy.array((0, 0, radius - depth / 2)) - radius * math.cos(arc / columns / 2) * out
+        falls = rays @ out
+        away = rays - 2 * falls[:, None] * out
+        for row in range(rows):
+            at = middle + foot + numpy.array((0, height / 2 - (row + 0.5) * height / rows, 0))
+            u, v = (a.ravel() for a in numpy.meshgrid(grid * pane[0], grid * pane[1]))
+            places = at + u[:, None] * right + v[:, None] * numpy.array((0, 1.0, 0))
+            t = places[:, None, 1] / -away[None, :, 1]
+            x = places[:, None, 0] + t * away[None, :, 0]
+            z = places[:, None, 2] + t * away[None, :, 2]
+            i = numpy.floor((x - corner[0]) / cell).astype(int)
+            j = numpy.floor((z - corner[1]) / cell).astype(int)
+            good = (i >= 0) & (i < counts[0]) & (j >= 0) & (j < counts[1])
+            flux = numpy.broadcast_to(-falls * reflectance * pane[0] * pane[1] / (len(u) * len(rays)), x.shape)
+            image += numpy.bincount((j * counts[0] + i)[good], flux[good], len(image))
+    return image.reshape(counts[1], counts[0]) / cell ** 2
+
+
+def cases():
+    x, z, up_z = (1, 0, 0), (0, 0, -1), (0, 0, -1)
+    yield "point over a floor", preset([quad()], [point_lamp((0, 1, 0))],
+                                       {"type": "surface", "object": "floor", "cell": 0.2}), {
+        "mean": 1 / 24, "cells": of_point((0, 1, 0), x, up_z, 0.2)}
+    yield "point aside", preset([quad()], [point_lamp((0.73, 0.4, -0.21))], plane()), {
+        "cells": of_point((0.73, 0.4, -0.21), x, up_z, 0.1)}
+    yield "point on a wall", preset([quad()], [point_lamp((0.3, 0.6, 0.2))],
+                                    plane((0, 0.5, -0.5), (0, 0, 1), up=(0, 1, 0))), {
+        "cells": of_point((0.3, 0.6, 0.2), x, (0, 1, 0), 0.1)}
+    slope = math.sqrt(0.5)
+    yield "point on a slope", preset([quad(at=(0, -2, 0))], [point_lamp((0, 1, 0.5))],
+                                     plane((0, 0, 0), (0, slope, slope))), {
+        "cells": of_point((0, 1, 0.5), x, (0, slope, -slope), 0.1)}
+    yield "point, far and small", preset([quad(size=2000)], [point_lamp((0, 100, 0), 1e6)],
+                                         {"type": "point", "position": [40, 0, 0], "diameter": 0.02}), {
+        "mean": 1e6 / (4 * math.pi) * 100 / math.hypot(100, 40) ** 3}
+    yield "box, its top", preset([shape("box", "grey", size=[1, 1, 1])], [point_lamp((0.1, 2, 0.3))],
+                                 {"type": "surface", "object": "object", "facing": [0, 1, 0], "cell": 0.1}), {
+        "cells": of_point((0.1, 2, 0.3), x, up_z, 0.1)}
+    lamp = numpy.array((0.1, 0.9, 0.3))
+    yield "box from inside", preset([shape("box", "black", size=[2, 2, 2], inwards=True)], [point_lamp(lamp)],
+                                    {"type": "surface", "object": "object", "cell": 0.25}), {"mean": 1 / 24}
+    for angle in (0, 60, 89):
+        a = math.radians(angle)
+        yield f"sun at {angle} degrees", preset([quad()], [SUN | {"direction": [math.sin(a), -math.cos(a), 0]}],
+                                                plane()), {
+            "mean": math.cos(a), "peak": math.cos(a), "cells": lambda row, a=a: math.cos(a)}
+    half = math.radians(0.265)
+    yield "sun's disc at 45 degrees", preset([quad()], [SUN | {"direction": [1, -1, 0], "angular_diameter_deg": 0.53}],
+                                             plane()), {"mean": slope * (1 + math.cos(half)) / 2}
+    yield "spot", preset([quad()], [{"type": "spot", "power_w": 1, "position": [0, 1, 0], "direction": [0, -1, 0],
+                                     "half_angle_deg": 60}], plane()), {
+        "cells": of_point((0, 1, 0), x, up_z, 0.1, 2 / (1 - 0.5))}
+    on_axis = of_area_lamp(1, 0.5, 1, (0, 1, 0), 0.01 * math.sqrt(math.pi) / 2)
+    square = {"type": "area", "power_w": 1, "position": [0, 1, 0], "direction": [0, -1, 0], "size": [0.5, 0.5]}
+    yield "square lamp", preset([quad()], [square], {"type": "point", "position": [0.2, 0, 0]}), {
+        "mean": on_axis(numpy.array((0.2, 0, 0)), numpy.array(x), numpy.array(z))}
+    on_wall = of_area_lamp(1, 0.5, 1, (-1, 0, 0), 0.2)
+    yield "square lamp on a wall", preset([quad(at=(0, -2, 0))], [square],
+                                          plane((0.6, 0, 0), (-1, 0, 0), cell=0.2, up=(0, 1, 0))), {
+        "cells": lambda row: on_wall(numpy.array([float(row[k]) for k in "xyz"]), numpy.array((0, 0, 1.)),
+                                     numpy.array((0, 1., 0)))}
+    yield "shining ball", preset([quad(at=(0, -3, 0)), shape("sphere", "grey", radius=0.2, name="lamp")],
+                                 [{"type": "mesh", "object": "lamp", "power_w": 1}],
+                                 {"type": "point", "position": [0, -1, 0]}), {
+        "mean": (1 - 1.5 * 0.01 ** 2 * math.pi / 24) / (4 * math.pi)}  # over a square as large as the window
+    white = {"type": "constant", "colour": [1, 1, 1], "radiance": 1, "lights": True}
+    yield "even sky on a plane", preset([quad(at=(0, -1, 0), size=0.01)], [], plane(normal=(0, 1, 0)),
+                                        environment=white), {"mean_lx": math.pi * 683.002}
+    yield "even sky on a ball", preset([shape("sphere", "black", radius=0.5)], [],
+                                       {"type": "surface", "object": "object", "cell": 0.1}, environment=white), {
+        "mean_lx": math.pi * 683.002}
+    yield "shadow's edge", preset([quad(), quad(size=2, at=(1.23, 0.5, 0), name="screen")],
+                                  [SUN | {"direction": [0, -1, 0]}], plane(size=(1, 1))), {
+        "mean": 0.73, "cells": lambda row: min(max((0.23 - float(row["x"])) / 0.1 + 0.5, 0), 1)}
+    yield "shadow of a ball", preset([quad(), shape("sphere", "grey", at=(0, 0.5, 0), radius=0.3)],
+                                     [SUN | {"direction": [0, -1, 0]}], {"type": "surface", "object": "floor"}), {
+        "mean": None, "direct": 1 - math.pi * 0.09 / 4}
+    for angle in (0, 60):
+        a = math.radians(angle)
+        yield f"thin pane at {angle} degrees", preset(
+            [quad(), quad("pane", 8, (0, 0.5, 0), name="pane")], [SUN | {"direction": [math.sin(a), -math.cos(a), 0]}],
+            plane(), {"pane": GLASS | {"thin": True}}), {"mean": math.cos(a) * through_pane(angle, is_thin=True)}
+    for angle in (0, 45):
+        a = math.radians(angle)
+        yield f"plate at {angle} degrees", preset(
+            [quad(), shape("plate", "glass", (0, 0.5, 0), size=[8, 0.1, 8])],
+            [SUN | {"direction": [math.sin(a), -math.cos(a), 0]}], plane()), {"mean": math.cos(a) * through_pane(angle)}
+    yield "mirror at 45 degrees", preset(
+        [quad(at=(0, -3, 0), size=20), quad("mirror", 2, (0, 0, 0), (0, 0, 45), name="mirror")],
+        [SUN | {"direction": [0, -1, 0]}], plane((-3, 0, 0), (1, 0, 0), (0.5, 0.5), 0.1, (0, 1, 0))), {
+        "mean": 0.9, "peak": 0.9, "cells": lambda row: 0.9}
+    facets = [quad("mirror", 0.2, (0.5 * i, 0, 0.5 * j), name=f"mirror {i} {j}") for i in range(-2, 3)
+              for j in range(-2, 3)]
+    for facet in facets:  # each sends the sun to (0, 4, 0)
+        at = numpy.array(facet["transform"]["translate"], float)
+        way = numpy.array((0, 4, 0)) - at
+        n = way / numpy.linalg.norm(way) + (0, 1, 0)
+        n /= numpy.linalg.norm(n)
+        tilt = math.degrees(math.asin(n[2]))
+        facet["transform"]["rotate_deg"] = [tilt, 0, -math.degrees(math.atan2(n[0], n[1]))]
+        facet["sent"] = 0.9 * 0.04 * n[1]
+    total = sum(facet.pop("sent") for facet in facets)
+    yield "mirrors towards one place", preset([quad(at=(0, -3, 0), size=20)] + facets,
+                                              [SUN | {"direction": [0, -1, 0]}],
+                                              plane((0, 4, 0), (0, -1, 0), (1, 1), 0.05)), {"mean": total}
+    wall = {"type": "curtain_wall", "size": [40, 72, 1], "arc_deg": 40, "panes": [20, 24], "gap": 0.06}
+    front = {"name": "front", "shape": wall, "material": "coated", "transform": {"translate": [0, 36, 3.4]}}
+    for sun in ((0.05, -1, -1), (0.4, -1, -0.7)):
+        facade = under_facade(40, 72, 40, 20, 24, 0.06, numpy.array((0, 36, 3.4)), sun, 0.533, 0.3, (-20, 5), 1,
+                              (40, 50))
+        yield f"concave facade, sun {sun[0]}", preset(
+            [front, quad(size=400)], [SUN | {"direction": list(sun), "angular_diameter_deg": 0.533}],
+            plane((0, 0.001, 30), size=(40, 50), cell=1), {"coated": MIRROR | {"reflectance": 0.3}}), {
+            "layer": "caustic", "mean": facade.mean(), "peak": facade.max(), "tolerance": 2e-3,
+            "cells": lambda row, facade=facade: facade[int(float(row["z"]) - 5)][int(float(row["x"]) + 20)]}
+    image = under_ball(1, 1.5, -1.6, 1, 10)
+    yield "ball in the sun", preset([quad(at=(0, -1.6, 0), size=20), shape("sphere", "glass", radius=1)],
+                                    [SUN | {"direction": [0, -1, 0]}], plane((0, -1.6, 0), size=(2, 2), cell=0.2)), {
+        "layer": "caustic", "mean": image.mean(), "peak": image.max(), "tolerance": 1e-3,
+        "cells": lambda row: image[int((float(row["z"]) + 1) / 0.2)][int((float(row["x"]) + 1) / 0.2)]}
+    for reflectance, at in ((0.5, (0, 0, 0)), (0.8, (0.5, 0.2, 0))):
+        yield f"integrating sphere, {reflectance}", preset(
+            [shape("sphere", "wall", radius=1, inwards=True)], [point_lamp(at)],
+            {"type": "surface", "object": "object", "cell": 0.2},
+            {"wall": {"type": "diffuse", "reflectance": reflectance}}), {
+            "mean": 1 / (4 * math.pi * (1 - reflectance))}
+    room = shape("box", "wall", size=[2, 2, 2], inwards=True, name="room")
+    whole = {"type": "surface", "object": "room", "cell": 0.25}
+    for wall in (0, 0.5):
+        walls = {"wall": {"type": "diffuse", "reflectance": wall}, "perfect": {"type": "mirror", "reflectance": 1}}
+        truth = {"mean": 1 / (24 * (1 - wall))}
+        lamps = [point_lamp((0.3, 0.7, 0.2))]
+        yield f"glass ball in a room, {wall}", preset([room, shape("sphere", "glass", radius=0.4)], lamps, whole,
+                                                      walls), truth
+        yield f"mirror ball in a room, {wall}", preset([room, shape("sphere", "perfect", radius=0.4)], lamps, whole,
+                                                       walls), truth
+    yield "prism of N-SF11 in a room", preset(
+        [room, shape("prism", "flint", side=0.8, height=1)], [point_lamp((0.3, 0.7, 0.6))], whole,
+        {"wall": GREY, "flint": {"type": "dielectric", "dispersion": {"type": "cauchy",
+                                                                     "coefficients": [1.74, 0.013]}}}), {
+        "mean": 1 / 12}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("cases", nargs="*")
+    parser.add_argument("--seeds", type=int, default=8)
+    parser.add_argument("--seconds", type=float, default=1)
+    options = parser.parse_args()
+    sums = {}
+    print(f"{'case':34} {'truth':>10} {'measured':>10} {'+- %':>7}  held: mean, peak, cells")
+    for name, case, truth in cases():
+        if options.cases and not any(wanted in name for wanted in options.cases):
+            continue
+        held = {}
+        for seed in range(1, options.seeds + 1):
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "case.json"
+                file.write_text(json.dumps(case))
+                run = subprocess.run([options.program, "measure", file, "--seconds", str(options.seconds), "--seed",
+                                      str(seed), "-o", folder, "--json"], capture_output=True, text=True)
+                if run.returncode:
+                    raise SystemExit(f"{name}: {run.stderr}")
+                meter = json.loads(run.stdout)["meters"][0]
+                layer = truth.get("layer", "direct" if "direct" in truth else "all")
+                numbers = meter["layers"][layer]
+                unit = "lx" if "mean_lx" in truth else "W/m^2"
+                mean = truth.get("direct") or truth.get("mean") or truth.get("mean_lx")
+                tolerance = truth.get("tolerance", 0)
+
+                def holds(interval, value):
+                    return interval["low"] - tolerance * value <= value <= interval["high"] + tolerance * value
+                if mean is not None:
+                    held.setdefault("mean", []).append(holds(numbers[unit]["mean"], mean))
+                if "peak" in truth:
+                    held.setdefault("peak", []).append(holds(numbers[unit]["peak"], truth["peak"]))
+                if "cells" in truth:
+                    rows = list(csv.DictReader(open(pathlib.Path(folder) / "meter.csv")))
+                    stem = "" if layer == "all" else layer + " "
+                    for row in rows:
+                        low, high = float(row[f"{stem}{unit} low"]), float(row[f"{stem}{unit} high"])
+                        held.setdefault("cells", []).append(holds({"low": low, "high": high}, truth["cells"](row)))
+        shown = numbers[unit]["mean"]
+        print(f"{name:34} {mean if mean is not None else float('nan'):10.6g} {shown['value']:10.6g} "
+              f"{50 * (shown['high'] - shown['low']) / max(shown['value'], 1e-30):7.2g}  "
+              + ", ".join(f"{k} {sum(v)}/{len(v)}" for k, v in held.items()), flush=True)
+        for kind, values in held.items():
+            sums.setdefault(kind, []).extend(values)
+    for kind, values in sums.items():
+        print(f"{kind}: {sum(values)} of {len(values)}, {100 * sum(values) / len(values):.1f} %")
+
+
+if __name__ == "__main__":
+    main()
