@@ -198,8 +198,8 @@ void warn_of_faint_lights(Scene& scene);
 /// vertices of their own, so their normals are exact; curved sides share theirs. quad: open, size x by z in the plane y
 /// = 0, facing +y. box, plate: size x, y, z. sphere: an exact one, not of triangles. cylinder: about the y axis, flat
 /// ends, a sharp rim. prism: stands along y; the apex edge at +z, the third side at -z, facing -z. brilliant: the round
-/// brilliant cut, table up: 57 facets and 16 of the girdle. curtain_wall: panes that face +z, whose front is hollow where
-/// arc_deg is above 0. Of water and relief nothing: those are in heights.h.
+/// brilliant cut, table up: 57 facets and 16 of the girdle. curtain_wall: panes that face +z,
+/// whose front is hollow where arc_deg is above 0. Of water and relief nothing: those are in heights.h.
 Mesh make_shape(const preset::Shape& shape);
 
 /// The plane of a flat object, in the scene's coordinates.

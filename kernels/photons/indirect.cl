@@ -178,7 +178,8 @@ ITEM_KERNEL(indirect, (WORLD_ARGUMENTS,
     visitor.sample = frame * paths + p;
     visitor.paths = paths;
     visitor.pixel = pixel;
-    const uint number = frame / SAMPLE_SEQUENCES * paths + p; // as in place_in_spectrum, but where light goes on from walls
+    // As in place_in_spectrum, but where light goes on from walls.
+    const uint number = frame / SAMPLE_SEQUENCES * paths + p;
     visitor.parts = number >= (NEPHROID_COATED ? 0u : 64u) ? 4u : number >= 16u ? 2u : 1u;
     visitor.with_leader = 0u;
     uint part_of_leader = 0u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A meter in the place of the camera (app/scene/meter.h): its pixels are cells of a surface. Their pieces are primitives
-// that no ray meets. Paths begin on them; photons add to the cell that they cross.
+// A meter in the place of the camera (app/scene/meter.h): its pixels are cells of a surface. Their pieces are
+// primitives that no ray meets. Paths begin on them; photons add to the cell that they cross.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/film.h"
 

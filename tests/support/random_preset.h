@@ -111,8 +111,8 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   for (std::size_t i = 0; i < p.scene.meters.size(); ++i) {
     Meter& meter = p.scene.meters[i];
     meter.name = fmt::format("meter {}", i);
-    meter.normal = {0.1, -1, 1.0 / 3};
-    meter.up = {0, 0.2, 1};
+    if (meter.type != Meter::Type::surface) meter.normal = {0.1, -1, 1.0 / 3};
+    if (meter.type == Meter::Type::plane) meter.up = {0, 0.2, 1};
     if (meter.facing) meter.facing = {0.1, 1.0 / 3, 1};
     if (meter.within) meter.within = Box{{-1, -2, -3}, {1, 1.0 / 3, 1}};
     if (meter.threshold) meter.threshold = "2500 W/m^2";
