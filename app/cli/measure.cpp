@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace nephroid::cli {
@@ -73,9 +74,9 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset) {
   const Numbers &watts = reading.all().numbers(Quantity::irradiance),
                 &lux = reading.all().numbers(Quantity::illuminance);
   fmt::print("{}: {}, {:.4g} m^2; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"), reading.area_m2,
-             meter.run->work_seconds());
-  if (meter.run->photons() > 0)
-    fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.run->photons()));
+             meter.seconds);
+  if (meter.photons > 0)
+    fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.photons));
   fmt::print("\n");
   print_numbers(meter, reading, Quantity::irradiance);
   print_numbers(meter, reading, Quantity::illuminance);
@@ -88,6 +89,10 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset) {
   }
   if (reading.share_above)
     fmt::print("  above {}: {} of the area\n", *meter.meter.threshold, percent_of(*reading.share_above));
+  if (!(reading.all().numbers(Quantity::irradiance).mean.value > 0))
+    fmt::print("  no light was found: it is dark, or light is rare here and wants more time\n");
+  if (const std::uint64_t refused = meter.run->refused(); refused > 0)
+    fmt::print("  {} were too bright for the film and are not in these numbers\n", counted(refused, "contribution"));
   if (const double lost = meter.run->lost_share(); lost > 1e-4)
     fmt::print("  {:.2g} % of the photons' power met more than {} surfaces and is not in these numbers\n", 100 * lost,
                meter.plan.settings.max_surfaces);
@@ -108,8 +113,8 @@ Json to_json(const Numbers& numbers, const char* total) {
 Json to_json(const MeterInHand& meter) {
   const Reading& reading = *meter.reading;
   Json object{{"name", meter.meter.name},        {"cells", meter.surface.count()},
-              {"area_m2", reading.area_m2},      {"seconds", meter.run->work_seconds()},
-              {"photons", meter.run->photons()}, {"lost_share", meter.run->lost_share()}};
+              {"area_m2", reading.area_m2},      {"seconds", meter.seconds},
+              {"photons", meter.photons}, {"lost_share", meter.run->lost_share()}};
   for (const LayerReading& layer : reading.layers)
     object["layers"][layer.name] = {{"W/m^2", to_json(layer.numbers(Quantity::irradiance), "total_w")},
                                     {"lx", to_json(layer.numbers(Quantity::illuminance), "total_lm")}};
@@ -132,7 +137,6 @@ void write_files(const fs::path& folder, const MeterInHand& meter, double metres
 
 void report(const MeasureOptions& options, const run::Metering& metering) {
   Json list = Json::array();
-  if (!options.folder.empty()) fs::create_directories(options.folder);
   for (const MeterInHand& meter : metering.meters()) {
     list.push_back(to_json(meter));
     if (!options.json) print_text(meter, metering.prepared().preset);
@@ -147,7 +151,9 @@ void report(const MeasureOptions& options, const run::Metering& metering) {
 void drive(const MeasureOptions& options, run::Metering& metering, const std::stop_token& interrupted) {
   constexpr double usual_percent = 1, usual_seconds = 60;
   const double percent = options.until_percent.value_or(usual_percent),
-               seconds = options.seconds.value_or(usual_seconds * static_cast<double>(metering.meters().size()));
+               usual = options.until_percent ? std::numeric_limits<double>::infinity()
+                                             : usual_seconds * static_cast<double>(metering.meters().size()),
+               seconds = options.seconds.value_or(usual);
   LiveLine line;
   const bool shows = progress_style(options.json) == ProgressStyle::live;
   const auto all_read = [&] {
@@ -176,8 +182,12 @@ void measure(const MeasureOptions& options) {
     run::DeviceOnDemand device(device_opener(options.device));
     const run::Prepared prepared = run::prepare(preset);
     run::Metering metering(prepared, {device.context(), Communicator(nullptr)}, options.meter);
+    for (const std::string& note : metering.notes()) fmt::print(stderr, "note: {}\n", note);
+    if (!options.folder.empty()) fs::create_directories(options.folder);
     drive(options, metering, interrupts.token());
     report(options, metering);
+    if (interrupts.token().stop_requested())
+      throw Error(ErrorKind::interrupted, options.preset, "interrupted: the numbers are of the work until then");
   });
 }
 
@@ -200,11 +210,12 @@ void add_measure(CLI::App& program, Session&) {
                        "meter has until_percent",
                .from = 0.001,
                .to = 100});
-  verb.option("--seconds", options->seconds,
-              {.type = "S",
-               .says = "Stop after this much work (default: 60 for each meter, or as --until says)",
-               .from = 0.001,
-               .to = 1e9});
+  verb.option(
+      "--seconds", options->seconds,
+      {.type = "S",
+       .says = "Stop after this much work, whatever the intervals (default: 60 for each meter, or none with --until)",
+       .from = 0.001,
+       .to = 1e9});
   verb.option("--seed", options->seed,
               {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
   verb.option("--device", options->device.selector,

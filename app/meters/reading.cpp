@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace nephroid::meters {
 namespace {
@@ -169,7 +170,7 @@ Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, dou
 
 double relative_half_width(const preset::Meter& meter, const Reading& reading) {
   const Numbers& numbers = reading.all().numbers(quantity_of(meter.unit));
-  if (!(numbers.mean.value > 0)) return 0; // it is dark
+  if (!(numbers.mean.value > 0)) return std::numeric_limits<double>::infinity(); // it is dark, or none was found yet
   return std::max(numbers.mean.half() / numbers.mean.value, numbers.peak.half() / numbers.peak.value);
 }
 

@@ -56,7 +56,8 @@ struct Reading {
 Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, double metres_per_unit,
              const std::vector<photons::MeterLayer>& layers);
 
-/// The larger relative half width of the intervals of mean and peak, of the quantity of the meter's unit.
+/// The larger relative half width of the intervals of mean and peak, of the quantity of the meter's unit. Infinite
+/// where no light was found.
 double relative_half_width(const preset::Meter& meter, const Reading& reading);
 
 /// The quantity that a unit is of.

@@ -21,9 +21,7 @@ public:
     passes_.warm_up(world_);
   }
 
-  void advance() override {
-    if (!passes_.stages().empty()) passes_.advance();
-  }
+  void advance() override { passes_.advance(); }
   std::int64_t cycles() const override { return passes_.complete() / meter_replicates; }
   std::uint64_t photons() const override { return passes_.photons(); }
   double work_seconds() const override { return passes_.work_seconds(); }
@@ -44,12 +42,17 @@ public:
   }
 
   double lost_share() override {
-    const EnergyBalance balance = balance_of(outcome_watts(world_.context.all_reduced_sum(world_.energy),
-                                                           world_.tables.energy_scale, passes_.photon_batches()));
+    const EnergyBalance balance = this->balance();
     return balance.emitted_w > 0 ? balance.lost_w / balance.emitted_w : 0;
   }
+  std::uint64_t refused() override { return balance().refused_contributions; }
 
 private:
+  EnergyBalance balance() {
+    return balance_of(outcome_watts(world_.context.all_reduced_sum(world_.energy), world_.tables.energy_scale,
+                                    passes_.photon_batches()));
+  }
+
   StageContext world_;
   Passes passes_;
 };
@@ -62,12 +65,13 @@ RunPlan plan_meter(const preset::Preset& preset, const Settings& wanted, const s
   settings.estimator = Settings::Estimator::splat;
   settings.smoothing = Settings::Smoothing::off;
   settings.relight = settings.background = false;
-  settings.indirect = wanted.indirect.value_or(true);
+  settings.direct = settings.caustic = true; // what falls on it is all of it
+  settings.indirect = true;
   // Short passes: there is a first interval after a cycle of them.
   settings.photons_per_pass = std::max(wanted.photons_per_pass / static_cast<int>(meter_replicates), 1);
   settings.indirect_photons_per_pass =
       std::max(wanted.indirect_photons_per_pass / static_cast<int>(meter_replicates), 1);
-  settings.pixel_samples = 1 << 20; // a cell has light and shadow, also of lamps that are points
+  settings.pixel_samples = 1 << 17; // a cell has light and shadow, also of lamps that are points
   preset::Preset measured = preset;
   measured.measure.estimate = true;
   return make_plan(measured, settings, view, bvh, {.all = preset.leave_out});

@@ -34,6 +34,8 @@ public:
   virtual std::vector<MeterLayer> layers() = 0;
   /// The part of the photons' power that met too many surfaces.
   virtual double lost_share() = 0;
+  /// Contributions that were too large for a film: 0 in a sound run.
+  virtual std::uint64_t refused() = 0;
 };
 
 /// view: of scene::meter_view, whose camera is the meter. wanted: the run's settings for photons. What a meter has no

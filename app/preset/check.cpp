@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 namespace nephroid::preset {
 namespace {
@@ -117,7 +118,12 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
                       "expected a factor of at least 1e-06 or at most -1e-06", "for a thin object use a plate");
   if (o.shape && o.shape->type == Shape::Type::curtain_wall) {
     const Shape& s = *o.shape;
-    const double pane = std::min(s.size[0] / s.panes[0], s.size[1] / s.panes[1]);
+    const double turn = s.arc_deg * std::numbers::pi / 180 / s.panes[0], along = s.size[0] / s.panes[0],
+                 chord = turn == 0 ? along : along * std::sin(turn / 2) / (turn / 2),
+                 pane = std::min(chord, s.size[1] / s.panes[1]);
+    if (constexpr int most_panes = 100000; s.panes[0] * s.panes[1] > most_panes)
+      throw bad_input(where(child(child(pointer, "shape"), "panes")), fmt::format("are {}", s.panes[0] * s.panes[1]),
+                      fmt::format("expected at most {}", most_panes), "make several walls of them");
     if (s.gap > 0.99 * pane)
       throw bad_input(where(child(child(pointer, "shape"), "gap")),
                       fmt::format("is {:g}, and a pane with its gap is {:g} wide or high", s.gap, pane),
@@ -152,8 +158,10 @@ void check_meter(const Meter& m, std::size_t index, const Scene& scene, const Wh
   if (m.name.empty()) throw bad_input(at("name"), "is empty", "expected what tables and files may call the meter");
   for (std::size_t other = 0; other < index; ++other)
     if (file_stem(scene.meters[other]) == file_stem(m))
-      throw bad_input(at("name"), fmt::format("{} is the name of meter {}, too", in_quotes(m.name), other),
-                      "expected another name for each: their files are called by it");
+      throw bad_input(at("name"),
+                      fmt::format("{} would have the files of meter {}, {}", in_quotes(m.name), other,
+                                  in_quotes(scene.meters[other].name)),
+                      "expected another name for each");
   if (m.type == Meter::Type::surface) {
     require_object(m.object, scene, at("object"));
     if (m.facing) check_direction(*m.facing, child(pointer, "facing"), where);

@@ -277,7 +277,7 @@ void describe(Fields& v, Meter& m) {
   else
     v.field("cell", "The edge of a cell; null: a 64th of the longest edge.", m.cell,
             {.unit = length_unit, .bounds = length_bounds});
-  v.field("unit", "What its map is shown in.", m.unit);
+  v.field("unit", "Of its map; it says whether watts or lux decide where the peak is and when it has enough.", m.unit);
   v.field("threshold", "A value with its unit, such as \"2500 W/m^2\": the share of the area above it is told.",
           m.threshold, {.text = Text::line});
   v.field("until_percent",

@@ -294,7 +294,7 @@ struct Meter {
   std::array<double, 2> size{1, 1};     ///< plane: its width and its height along `up`
   double diameter = 0.01;               ///< point: the edge of a square with the area of the meter's window
   std::optional<double> cell;           ///< surface, plane: the edge of a cell; else a 64th of the longest edge
-  Unit unit = Unit::watts;              ///< what maps and the threshold's share are shown in
+  Unit unit = Unit::watts;              ///< of its map; it says whether watts or lux decide peak and end
   std::optional<std::string> threshold; ///< with its unit: "2500 W/m^2"
   std::optional<double> until_percent;  ///< the interval of mean and peak at which it has measured enough
   bool operator==(const Meter&) const = default;

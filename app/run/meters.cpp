@@ -63,6 +63,10 @@ Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, co
     next.surface = scene::make_meter(meter, scene, where / static_cast<int>(i));
     const scene::Scene view = scene::meter_view(scene, next.surface);
     next.plan = photons::plan_meter(preset, meter_settings(preset), view, *prepared.loaded->bvh);
+    if (next.plan.layers == 0)
+      throw bad_input(where / static_cast<int>(i),
+                      fmt::format("cannot measure anything: {}", next.plan.decisions.front().reason),
+                      "expected a scene with light");
     require_memory(next.plan, view.camera.width, 1, context.device(), available_memory_bytes());
     next.run = photons::make_meter_run(preset, view, *prepared.loaded->bvh, next.plan, context);
   }
@@ -80,6 +84,8 @@ bool Metering::advance() {
   const auto cycles = static_cast<std::uint64_t>(meter.run->cycles());
   const bool is_due = std::has_single_bit(cycles) || (cycles % 3 == 0 && std::has_single_bit(cycles / 3));
   if (!is_due) return false;
+  meter.seconds = meter.run->work_seconds();
+  meter.photons = meter.run->photons();
   meter.reading =
       meters::read(meter.meter, meter.surface, prepared_.loaded->scene.metres_per_unit, meter.run->layers());
   return true;
@@ -89,6 +95,14 @@ bool Metering::is_enough(double percent) const {
   return std::ranges::all_of(meters_, [&](const MeterInHand& meter) {
     return meter.relative_half_width() <= meter.meter.until_percent.value_or(percent) / 100;
   });
+}
+
+std::vector<std::string> Metering::notes() const {
+  std::vector<std::string> notes;
+  for (const MeterInHand& meter : meters_)
+    for (const std::string& note : meter.plan.notes)
+      if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  return notes;
 }
 
 double Metering::work_seconds() const {

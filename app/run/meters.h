@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The meters of a preset, measured: for the command line, the window and Python.
+// The meters of a preset, measured: a cycle of each in turn.
 #pragma once
 #include "meters/reading.h"
 #include "run/prepare.h"
@@ -17,7 +17,9 @@ struct MeterInHand {
   glm::dvec3 origin{0}; ///< preset coordinates of the scene's (0, 0, 0)
   photons::RunPlan plan;
   std::unique_ptr<photons::MeterRun> run;
-  std::optional<meters::Reading> reading; ///< as of the last cycle; nothing before the first
+  std::optional<meters::Reading> reading; ///< nothing before the first
+  double seconds = 0;                     ///< of work until the reading
+  std::uint64_t photons = 0;              ///< sent until then
   double relative_half_width() const { return reading ? meters::relative_half_width(meter, *reading) : 1e9; }
 };
 
@@ -27,12 +29,14 @@ public:
   /// name, its engine has no scene, as scene::make_meter and photons::plan_meter; failed where memory lacks.
   Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only = {});
 
-  /// Does a slice of about 30 ms of the meter whose interval is widest for what is asked of it. True after a cycle of
-  /// it, which has made its reading anew.
+  /// Does a slice of about 30 ms of one of the meters, which take turns of a cycle. True where it has made a reading
+  /// anew: after cycles 1, 2, 3, 4, 6, 8, 12, ...
   bool advance();
   /// Whether all have the intervals that they ask for, or `percent` where they ask for none.
   bool is_enough(double percent) const;
   double work_seconds() const;
+  /// What the plans say besides, a line each, once.
+  std::vector<std::string> notes() const;
   const std::vector<MeterInHand>& meters() const { return meters_; }
   const Prepared& prepared() const { return prepared_; }
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <glm/gtc/matrix_access.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,10 +27,25 @@ constexpr double rounding_of_ellipsoids = 6e-5;
 
 /// A piece of a surface, before it is cut into cells.
 struct Facet {
-  std::array<glm::dvec3, 3> corners;
+  Polygon polygon;
+  std::size_t side = 0;  ///< of `sides`: what its surface faces most
   double area_scale = 1; ///< of the true surface over the facet's
-  glm::dvec3 across() const { return glm::cross(corners[1] - corners[0], corners[2] - corners[0]); }
 };
+
+/// Twice the area, along the normal.
+glm::dvec3 across(const Polygon& polygon) {
+  glm::dvec3 sum(0);
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return sum;
+}
+
+std::size_t side_of(const glm::dvec3& n) {
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::abs(n[static_cast<int>(i)]) > std::abs(n[static_cast<int>(axis)])) axis = i;
+  return 2 * axis + (n[static_cast<int>(axis)] < 0 ? 1 : 0);
+}
 
 /// The part of a polygon where dot(p, way) >= least.
 Polygon clipped(const Polygon& polygon, const glm::dvec3& way, double least) {
@@ -66,11 +83,28 @@ void add_ellipsoid(const Ellipsoid& e, std::vector<Facet>& facets) {
                out = e.inwards ? 1 : 1 / std::cos(half);
   const glm::dmat3 axes(glm::dvec3(e.half_axes[0]), glm::dvec3(e.half_axes[1]), glm::dvec3(e.half_axes[2]));
   const bool turns = (glm::determinant(axes) < 0) != e.inwards;
+  // The surface's normal is along gradient (p - centre), so that what it faces most ends in planes through the centre.
+  glm::dmat3 gradient(0);
+  for (int axis = 0; axis < 3; ++axis)
+    gradient += glm::outerProduct(axes[axis], axes[axis]) / std::pow(glm::dot(axes[axis], axes[axis]), 2);
+  if (e.inwards) gradient *= -1.0;
+  const glm::dvec3 centre(e.centre);
   for (const auto& t : unit) {
-    Facet facet{{}, 4 * std::numbers::pi / (inscribed * out * out)};
-    for (std::size_t i = 0; i < 3; ++i) facet.corners[i] = glm::dvec3(e.centre) + axes * (out * t[i]);
-    if (turns) std::swap(facet.corners[1], facet.corners[2]);
-    facets.push_back(facet);
+    Polygon facet;
+    for (const glm::dvec3& corner : t) facet.push_back(centre + axes * (out * corner));
+    if (turns) std::swap(facet[1], facet[2]);
+    for (std::size_t side = 0; side < 6; ++side) {
+      Polygon part = facet;
+      const int axis = static_cast<int>(side / 2);
+      const glm::dvec3 most = (side % 2 == 0 ? 1.0 : -1.0) * glm::row(gradient, axis);
+      for (int other = 0; other < 3; ++other)
+        for (const double sign : {1.0, -1.0}) {
+          if (other == axis || part.size() < 3) continue;
+          const glm::dvec3 way = most + sign * glm::row(gradient, other);
+          part = clipped(part, way, glm::dot(centre, way));
+        }
+      if (part.size() >= 3) facets.push_back({std::move(part), side, 4 * std::numbers::pi / (inscribed * out * out)});
+    }
   }
 }
 
@@ -78,7 +112,9 @@ std::vector<Facet> facets_of(const Scene& scene, const Object& object) {
   std::vector<Facet> facets;
   for (const glm::uvec3& triangle : triangles_of(scene, object)) {
     const auto corner = [&](int i) { return glm::dvec3(scene.geometry.positions[triangle[i]]); };
-    facets.push_back({{corner(0), corner(1), corner(2)}});
+    Polygon polygon{corner(0), corner(1), corner(2)};
+    const std::size_t side = side_of(across(polygon));
+    facets.push_back({std::move(polygon), side});
   }
   for (const Ellipsoid& ellipsoid : ellipsoids_of(scene, object)) add_ellipsoid(ellipsoid, facets);
   return facets;
@@ -91,13 +127,6 @@ constexpr std::array<std::array<glm::dvec3, 2>, 6> sides{{{{{0, 0, -1}, {0, 1, 0
                                                           {{{1, 0, 0}, {0, 0, 1}}},
                                                           {{{1, 0, 0}, {0, 1, 0}}},
                                                           {{{-1, 0, 0}, {0, 1, 0}}}}};
-
-std::size_t side_of(const glm::dvec3& n) {
-  std::size_t axis = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-    if (std::abs(n[static_cast<int>(i)]) > std::abs(n[static_cast<int>(axis)])) axis = i;
-  return 2 * axis + (n[static_cast<int>(axis)] < 0 ? 1 : 0);
-}
 
 /// Cuts polygons into cells.
 struct Builder {
@@ -258,33 +287,37 @@ std::array<glm::dvec3, 2> upright(glm::dvec3 right, glm::dvec3 up) {
   return best;
 }
 
-/// The facets that a meter measures, cut by its box.
-std::vector<std::pair<Polygon, double>> measured_facets(const preset::Meter& meter, const Scene& scene,
-                                                        const Object& object, bool back) {
-  std::vector<std::pair<Polygon, double>> measured;
-  const glm::dvec3 facing = meter.facing ? glm::normalize(to_dvec3(*meter.facing)) : glm::dvec3(0);
-  for (const Facet& facet : facets_of(scene, object)) {
-    Polygon polygon{facet.corners[0], facet.corners[1], facet.corners[2]};
-    if (back) std::swap(polygon[1], polygon[2]);
-    const glm::dvec3 across = (back ? -1.0 : 1.0) * facet.across();
-    if (meter.facing && !back && glm::dot(across, facing) < (std::sqrt(0.5) - 1e-6) * glm::length(across)) continue;
-    for (int axis = 0; meter.within && axis < 3 && polygon.size() >= 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
+/// The facets that a meter measures, cut by its box. back: of a flat object, the other side.
+std::vector<Facet> measured_facets(const MeterSurface& meter, const Scene& scene, const Object& object, bool back) {
+  std::vector<Facet> measured;
+  for (Facet& facet : facets_of(scene, object)) {
+    if (back) std::reverse(facet.polygon.begin(), facet.polygon.end());
+    const glm::dvec3 n = across(facet.polygon);
+    if (!(glm::length(n) > 0) || glm::dot(n, meter.facing) < meter.least_cosine * glm::length(n)) continue;
+    for (int axis = 0; axis < 3 && facet.polygon.size() >= 3; ++axis) {
       glm::dvec3 way(0);
       way[axis] = 1;
-      polygon = clipped(polygon, way, meter.within->low[i] - scene.origin[axis]);
-      polygon = clipped(polygon, -way, scene.origin[axis] - meter.within->high[i]);
+      facet.polygon = clipped(facet.polygon, way, meter.low[axis]);
+      facet.polygon = clipped(facet.polygon, -way, -meter.high[axis]);
     }
-    if (polygon.size() >= 3) measured.emplace_back(std::move(polygon), facet.area_scale);
+    if (facet.polygon.size() >= 3) measured.push_back(std::move(facet));
   }
   return measured;
 }
 
-glm::dvec3 normal_of(const Polygon& polygon) {
-  glm::dvec3 across(0);
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    across += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-  return across;
+/// Takes what the preset says of a part of the object.
+void set_limits(const preset::Meter& meter, const Scene& scene, const Object& object, bool is_flat,
+                const Location& where, MeterSurface& surface) {
+  if (meter.within) {
+    surface.low = to_dvec3(meter.within->low) - scene.origin;
+    surface.high = to_dvec3(meter.within->high) - scene.origin;
+  }
+  if (!meter.facing || is_flat) return; // a flat object has two sides, and this chooses one
+  if (object.ellipsoid_count > 0)
+    throw bad_input(where / "facing", "is of flat facets, and the object is a ball", "expected no 'facing'",
+                    "take a part of it by 'within'");
+  surface.facing = glm::normalize(to_dvec3(*meter.facing));
+  surface.least_cosine = std::sqrt(0.5) - 1e-6;
 }
 
 void make_surface(const preset::Meter& meter, const Scene& scene, const Location& where, Builder& builder) {
@@ -293,7 +326,8 @@ void make_surface(const preset::Meter& meter, const Scene& scene, const Location
   builder.meter.object = static_cast<int>(found - scene.objects.begin());
   const auto plane = plane_of(scene, object);
   const bool back = plane && meter.facing && glm::dot(plane->normal, to_dvec3(*meter.facing)) < 0;
-  const auto facets = measured_facets(meter, scene, object, back);
+  set_limits(meter, scene, object, plane.has_value(), where, builder.meter);
+  const std::vector<Facet> facets = measured_facets(builder.meter, scene, object, back);
   if (facets.empty())
     throw bad_input(where, "measures nothing: no part of the object faces that way or is in the box",
                     "expected some surface", "look at 'facing' and 'within'");
@@ -308,11 +342,9 @@ void make_surface(const preset::Meter& meter, const Scene& scene, const Location
   }
   double longest = 0, largest = 0;
   for (std::size_t i = 0; i < facets.size(); ++i) {
-    const glm::dvec3 n = normal_of(facets[i].first);
-    if (!(glm::length(n) > 0)) continue;
-    const std::size_t side = plane ? 0 : side_of(n);
+    const std::size_t side = plane ? 0 : facets[i].side;
     of_side[side].push_back(i);
-    for (const glm::dvec3& p : facets[i].first) {
+    for (const glm::dvec3& p : facets[i].polygon) {
       const glm::dvec3 place(glm::dot(p, frames[side][0]), glm::dot(p, frames[side][1]), 0);
       bounds[side] = enclosing(bounds[side], {place, place});
       for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(p[axis]));
@@ -321,6 +353,7 @@ void make_surface(const preset::Meter& meter, const Scene& scene, const Location
     longest = std::max({longest, size.x, size.y});
   }
   std::size_t places = 0;
+  double area = 0;
   for (std::size_t side = 0; side < 6; ++side) {
     if (of_side[side].empty()) continue;
     MeterChart chart{frames[side][0], frames[side][1]};
@@ -330,14 +363,15 @@ void make_surface(const preset::Meter& meter, const Scene& scene, const Location
     chart.top = bounds[side].high.y;
     chart.first = places;
     places += chart.places();
-    require_count(places, size.x * size.y, meter, where);
+    area += size.x * size.y;
+    require_count(places, area, meter, where);
     builder.meter.charts.push_back(chart);
   }
   builder.places.resize(places);
   auto chart = builder.meter.charts.begin();
   for (std::size_t side = 0; side < 6; ++side) {
     if (of_side[side].empty()) continue;
-    for (const std::size_t i : of_side[side]) builder.add(*chart, facets[i].first, facets[i].second);
+    for (const std::size_t i : of_side[side]) builder.add(*chart, facets[i].polygon, facets[i].area_scale);
     ++chart;
   }
   builder.finish(lift * largest);
@@ -345,11 +379,16 @@ void make_surface(const preset::Meter& meter, const Scene& scene, const Location
 
 /// Refuses a meter that glass encloses, or that looks into the surface that it lies on.
 void require_air(const MeterSurface& meter, const Scene& scene, const Location& where) {
-  const std::size_t step = meter.count() / 16 + 1;
-  for (std::size_t cell = 0; cell < meter.count(); cell += step) {
+  const std::size_t probes = std::min<std::size_t>(meter.count(), 1024);
+  for (std::size_t probe = 0; probe < probes; ++probe) {
+    // All of a few cells, else some that are spread by the golden section.
+    const std::size_t cell =
+        probes == meter.count()
+            ? probe
+            : static_cast<std::size_t>(std::fmod(static_cast<double>(probe) * 0.618033988749895, 1) *
+                                       static_cast<double>(meter.count()));
     const auto& [a, b, c] = meter.pieces[meter.first_piece[cell]]; // a cell's centre may be behind a curved surface
-    const glm::dvec3 across = glm::cross(glm::dvec3(b - a), glm::dvec3(c - a));
-    const glm::dvec3 place = glm::dvec3(a + b + c) / 3.0 + 1e-4 / std::sqrt(glm::length(across)) * across;
+    const glm::dvec3 place = glm::dvec3(a + b + c) / 3.0;
     const std::vector<int> inside = dielectrics_around(scene, place);
     if (inside.empty()) continue;
     const std::string& name = scene.objects[static_cast<std::size_t>(inside.back())].name;

@@ -178,6 +178,7 @@ MeterTables make_meter_tables(const scene::MeterSurface& meter, double metres_pe
                                    static_cast<int>(chart.first),
                                    int(meter.is_flat),
                                    {}});
+  tables.meter_limits = {to_float4(meter.low), to_float4(meter.high), to_float4(meter.facing, meter.least_cosine)};
   tables.meter_cells = meter.cells;
   tables.meter_pieces.assign(meter.first_piece.begin(), meter.first_piece.end());
   tables.meter_chances = meter.chances;

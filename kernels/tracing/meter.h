@@ -28,6 +28,9 @@ static inline int cell_crossed(const World* world, const DeviceCamera* meter, co
 // a chart for each side that it faces, in the order of the axes.
 static inline int cell_met(const World* world, const DeviceCamera* meter, const Surface* surface, float3 arriving) {
   if (surface->object != meter->receiver) return -1;
+  const float3 place = surface->position;
+  const float4 low = world->meter_limits[0], high = world->meter_limits[1], facing = world->meter_limits[2];
+  if (any(place < low.xyz) || any(place > high.xyz) || dot(surface->geometric, facing.xyz) < facing.w) return -1;
   for (int i = 0; i < meter->meter_charts; ++i) {
     __global const DeviceMeterChart* chart = world->meter_charts + i;
     const float faces = dot(surface->geometric, chart->normal.xyz);

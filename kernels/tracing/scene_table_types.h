@@ -64,6 +64,8 @@
 // A meter in the camera's place: meter.h. Empty where there is an eye.
 #define METER_TABLES(TABLE) \
   TABLE(DeviceMeterChart, meter_charts, "a meter's charts") \
+  TABLE(float4, meter_limits, "what a meter measures") /* low and high corner of its box; the way that it is to face, \
+    w: the least cosine to that */ \
   TABLE(int, meter_cells, "a meter's cells") /* of each place of the charts' grids; -1: none */ \
   TABLE(int, meter_pieces, "where a meter's cells begin") /* [cell + 1]: first piece */ \
   TABLE(float, meter_chances, "choice of a meter's piece") /* [piece] in its cell */ \

@@ -140,6 +140,47 @@ TEST(MeterRun, AClosedRoomKeepsTheLampsPower) {
   EXPECT_NEAR(sum, total.value, 1e-9);
 }
 
+// Photons on a round wall, whose cells end at seams between its six charts: all of the lamp's watt, and no cell that has
+// the photons of another one's area. A glass ball beside the lamp throws caustics on the wall.
+TEST(MeterRun, ABallsCellsGetTheirOwnPhotons) {
+  preset::Preset p = room(0);
+  p.scene.objects[0].shape = check::ball(1);
+  p.scene.objects[0].shape->inwards = true;
+  p.scene.lights[0].position = {0, 0.6, 0};
+  p.scene.meters[0].cell = 0.1;
+  const meters::Reading reading = measured(p, 4);
+  const Interval& total = reading.all().numbers(Quantity::irradiance).total;
+  EXPECT_NEAR(total.value, 1, 2 * total.half());
+  EXPECT_LT(total.half(), 5e-3);
+}
+
+// What two boxes hold of the walls is what they hold together.
+TEST(MeterRun, PartsOfASurfaceAddUp) {
+  preset::Preset p = room(0.5);
+  p.scene.meters = {{.type = Meter::Type::surface, .name = "left", .object = "room", .cell = 0.3},
+                    {.type = Meter::Type::surface, .name = "right", .object = "room", .cell = 0.3}};
+  p.scene.meters[0].within = preset::Box{{-9, -9, -9}, {0.123, 9, 9}};
+  p.scene.meters[1].within = preset::Box{{0.123, -9, -9}, {9, 9, 9}};
+  const run::Prepared prepared = run::prepare(p);
+  run::Metering metering(prepared, {shared_context(), Communicator(nullptr)});
+  while (metering.meters()[1].run->cycles() < 4) metering.advance();
+  double total = 0, half = 0;
+  for (const run::MeterInHand& meter : metering.meters()) {
+    total += meter.reading->all().numbers(Quantity::irradiance).total.value;
+    half += meter.reading->all().numbers(Quantity::irradiance).total.half();
+  }
+  EXPECT_NEAR(total, 2, 2 * half);
+  EXPECT_LT(half, 0.05);
+}
+
+TEST(MeterRun, InTheDarkThereIsNothingToMeasure) {
+  preset::Preset p = room(0.5);
+  p.scene.lights.clear();
+  const run::Prepared prepared = run::prepare(p);
+  EXPECT_THAT(refusal_of([&] { run::Metering(prepared, {shared_context(), Communicator(nullptr)}); }),
+              HasSubstr("the scene has no light"));
+}
+
 // A point's light on a cell is its power over 4 pi times the solid angle of the cell: of a cube's side a sixth.
 TEST(MeterRun, APlaneInTheAirMeasuresAndBlocksNothing) {
   preset::Preset p = room(0);

@@ -133,7 +133,7 @@ std::string read_refusal(const std::string& meters) {
 TEST(MeterPreset, IsCheckedWhenItIsRead) {
   const std::string floor = R"({"type": "surface", "name": "a", "object": "floor")";
   EXPECT_THAT(read_refusal("[" + floor + R"(, "threshold": "2500"}])"), HasSubstr("W/m^2, kW/m^2, lx"));
-  EXPECT_THAT(read_refusal("[" + floor + "}, " + floor + "}]"), HasSubstr("'a' is the name of meter 0, too"));
+  EXPECT_THAT(read_refusal("[" + floor + "}, " + floor + "}]"), HasSubstr("'a' would have the files of meter 0, 'a'"));
   EXPECT_THAT(read_refusal(R"([{"type": "surface", "name": "a", "object": "flor"}])"), HasSubstr("'floor'"));
   EXPECT_THAT(read_refusal(R"([{"type": "plane", "name": "a", "normal": [0, 0, 0]}])"), HasSubstr("has no length"));
   EXPECT_THAT(read_refusal(R"([{"type": "plane", "name": "a", "size": [0, 1]}])"), HasSubstr("/size"));
