@@ -75,8 +75,7 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset) {
                 &lux = reading.all().numbers(Quantity::illuminance);
   fmt::print("{}: {}, {:.4g} m^2; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"), reading.area_m2,
              meter.seconds);
-  if (meter.photons > 0)
-    fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.photons));
+  if (meter.photons > 0) fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.photons));
   fmt::print("\n");
   print_numbers(meter, reading, Quantity::irradiance);
   print_numbers(meter, reading, Quantity::illuminance);
@@ -112,9 +111,8 @@ Json to_json(const Numbers& numbers, const char* total) {
 
 Json to_json(const MeterInHand& meter) {
   const Reading& reading = *meter.reading;
-  Json object{{"name", meter.meter.name},        {"cells", meter.surface.count()},
-              {"area_m2", reading.area_m2},      {"seconds", meter.seconds},
-              {"photons", meter.photons}, {"lost_share", meter.run->lost_share()}};
+  Json object{{"name", meter.meter.name}, {"cells", meter.surface.count()}, {"area_m2", reading.area_m2},
+              {"seconds", meter.seconds}, {"photons", meter.photons},       {"lost_share", meter.run->lost_share()}};
   for (const LayerReading& layer : reading.layers)
     object["layers"][layer.name] = {{"W/m^2", to_json(layer.numbers(Quantity::irradiance), "total_w")},
                                     {"lx", to_json(layer.numbers(Quantity::illuminance), "total_lm")}};

@@ -121,9 +121,6 @@ void check_object(const Object& o, const Scene& scene, const std::string& pointe
     const double turn = s.arc_deg * std::numbers::pi / 180 / s.panes[0], along = s.size[0] / s.panes[0],
                  chord = turn == 0 ? along : along * std::sin(turn / 2) / (turn / 2),
                  pane = std::min(chord, s.size[1] / s.panes[1]);
-    if (constexpr int most_panes = 100000; s.panes[0] * s.panes[1] > most_panes)
-      throw bad_input(where(child(child(pointer, "shape"), "panes")), fmt::format("are {}", s.panes[0] * s.panes[1]),
-                      fmt::format("expected at most {}", most_panes), "make several walls of them");
     if (s.gap > 0.99 * pane)
       throw bad_input(where(child(child(pointer, "shape"), "gap")),
                       fmt::format("is {:g}, and a pane with its gap is {:g} wide or high", s.gap, pane),

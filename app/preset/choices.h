@@ -63,7 +63,8 @@ inline constexpr Choice<Shape::Type> choices<Shape::Type>[] = {
     {Shape::Type::prism, "prism", "A prism along y whose cross-section is an isosceles triangle."},
     {Shape::Type::plate, "plate", "A plane-parallel plate, y thick."},
     {Shape::Type::brilliant, "brilliant", "A brilliant-cut stone with its table up."},
-    {Shape::Type::curtain_wall, "curtain_wall", "A front of panes without thickness that faces +z, straight or on an arc."},
+    {Shape::Type::curtain_wall, "curtain_wall",
+     "A front of panes without thickness that faces +z, straight or on an arc."},
     {Shape::Type::water, "water", "A box of water with waves on it, which wind has raised."},
     {Shape::Type::relief, "relief", "A box whose top has the heights of a picture."}};
 

@@ -125,7 +125,7 @@ void describe(Fields& v, Shape& s) {
     length("size", "Its width along the arc and its height; the last number is not used.", s.size);
     v.field("arc_deg", "How much it bends from edge to edge; above 0 its front is hollow.", s.arc_deg,
             {.unit = "degrees", .bounds = within(-180, 180)});
-    v.field("panes", "How many panes there are along x and y.", s.panes, {.bounds = within(1, 1000)});
+    v.field("panes", "How many panes there are along x and y.", s.panes, {.bounds = within(1, 300)});
     v.field("gap", "Between panes.", s.gap, {.unit = length_unit, .bounds = within(0, 1e6)});
     v.field("pillow", "How far the middle of a pane stands out at the front; below 0 it is dented.", s.pillow,
             {.unit = length_unit, .bounds = within(-1e6, 1e6)});

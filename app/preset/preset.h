@@ -134,22 +134,22 @@ struct Shape {
   /// Edge lengths: quad (x by z, facing +y), box, plate (x by z, y thick); water at rest, relief where it is black;
   /// curtain_wall: x along its arc.
   Vec3 size{1, 1, 1};
-  double radius = 0.5;              ///< sphere, cylinder; brilliant: girdle radius
-  double height = 1;                ///< cylinder and prism: length along y; relief: how much higher white is than black
-  double apex_deg = 60;             ///< prism: angle between the two equal sides, whose edge is at +z
-  double side = 1;                  ///< prism: length of the two equal sides
-  int segments = 256;               ///< cylinder: facets around; water, relief: squares along the longer edge
-  double arc_deg = 0;               ///< curtain_wall: it bends as much from edge to edge; above 0 its front is hollow
-  std::array<int, 2> panes{20, 12}; ///< curtain_wall: along x and y
-  double gap = 0.05;                ///< curtain_wall: between panes
-  double pillow = 0;                ///< curtain_wall: how far the middle of a pane stands out, or below 0 is dented
-  double wind_m_s = 3;              ///< water: ten metres above it; 0: it is at rest
-  double wind_deg = 0;              ///< water: where the wind goes to, counterclockwise from +x as seen from above
-  double fetch_m = 100;             ///< water: how long the wind has blown over it
-  double time_s = 0;                ///< water
-  std::uint64_t seed = 1;           ///< water: which waves of those that this wind may raise
-  std::string picture = {};         ///< relief: a picture file, whose green is the height; its top is at -z
-  bool inwards = false;             ///< turn every triangle round, e.g. for a room
+  double radius = 0.5;            ///< sphere, cylinder; brilliant: girdle radius
+  double height = 1;              ///< cylinder and prism: length along y; relief: how much higher white is than black
+  double apex_deg = 60;           ///< prism: angle between the two equal sides, whose edge is at +z
+  double side = 1;                ///< prism: length of the two equal sides
+  int segments = 256;             ///< cylinder: facets around; water, relief: squares along the longer edge
+  double arc_deg = 0;             ///< curtain_wall: it bends as much from edge to edge; above 0 its front is hollow
+  std::array<int, 2> panes{4, 3}; ///< curtain_wall: along x and y
+  double gap = 0;                 ///< curtain_wall: between panes
+  double pillow = 0;              ///< curtain_wall: how far the middle of a pane stands out, or below 0 is dented
+  double wind_m_s = 3;            ///< water: ten metres above it; 0: it is at rest
+  double wind_deg = 0;            ///< water: where the wind goes to, counterclockwise from +x as seen from above
+  double fetch_m = 100;           ///< water: how long the wind has blown over it
+  double time_s = 0;              ///< water
+  std::uint64_t seed = 1;         ///< water: which waves of those that this wind may raise
+  std::string picture = {};       ///< relief: a picture file, whose green is the height; its top is at -z
+  bool inwards = false;           ///< turn every triangle round, e.g. for a room
   bool operator==(const Shape&) const = default;
 };
 

@@ -27,15 +27,15 @@ struct MeterChart {
 
 struct MeterSurface {
   std::string name;
-  int object = -1;                ///< whose surface it is; -1: none's, it is in the air
-  bool is_flat = true;            ///< in one plane, with one chart
-  double rounding = 4e-6;         ///< of what it measures: single precision, and the facets that stand for an ellipsoid
-  int white = 0;                  ///< the object that its pieces are of, which has no other surface
-  glm::dvec3 low{-1e30}, high{1e30};          ///< of an object only what is in this box,
-  glm::dvec3 facing{0};                       ///< and faces this way, unit or 0, by at least a cosine
+  int object = -1;        ///< whose surface it is; -1: none's, it is in the air
+  bool is_flat = true;    ///< in one plane, with one chart
+  double rounding = 4e-6; ///< of what it measures: single precision, and the facets that stand for an ellipsoid
+  int white = 0;          ///< the object that its pieces are of, which has no other surface
+  glm::dvec3 low{-1e30}, high{1e30}; ///< of an object only what is in this box,
+  glm::dvec3 facing{0};              ///< and faces this way, unit or 0, by at least a cosine
   double least_cosine = -1;
-  std::vector<MeterChart> charts; ///< at least one
-  std::vector<int> cells;         ///< of each place of the charts' grids, rows from the top; -1: none
+  std::vector<MeterChart> charts;               ///< at least one
+  std::vector<int> cells;                       ///< of each place of the charts' grids, rows from the top; -1: none
   std::vector<std::array<glm::vec3, 3>> pieces; ///< triangles, cell after cell, just above the surface
   std::vector<std::uint32_t> first_piece;       ///< [cell + 1]
   std::vector<float> chances;                   ///< [piece]: of it and those before it, in its cell; the last 1

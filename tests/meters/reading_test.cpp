@@ -140,8 +140,8 @@ TEST(MeterRun, AClosedRoomKeepsTheLampsPower) {
   EXPECT_NEAR(sum, total.value, 1e-9);
 }
 
-// Photons on a round wall, whose cells end at seams between its six charts: all of the lamp's watt, and no cell that has
-// the photons of another one's area. A glass ball beside the lamp throws caustics on the wall.
+// Photons on a round wall, whose cells end at seams between its six charts: all of the lamp's watt, and no cell that
+// has the photons of another one's area. A glass ball beside the lamp throws caustics on the wall.
 TEST(MeterRun, ABallsCellsGetTheirOwnPhotons) {
   preset::Preset p = room(0);
   p.scene.objects[0].shape = check::ball(1);
@@ -177,7 +177,9 @@ TEST(MeterRun, InTheDarkThereIsNothingToMeasure) {
   preset::Preset p = room(0.5);
   p.scene.lights.clear();
   const run::Prepared prepared = run::prepare(p);
-  EXPECT_THAT(refusal_of([&] { run::Metering(prepared, {shared_context(), Communicator(nullptr)}); }),
+  EXPECT_THAT(refusal_of([&] {
+                run::Metering(prepared, {shared_context(), Communicator(nullptr)});
+              }),
               HasSubstr("the scene has no light"));
 }
 

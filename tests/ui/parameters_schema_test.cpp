@@ -101,13 +101,15 @@ protected:
       all = {"98", "386"};
     else if (pointer.ends_with("/place/date"))
       all = {"2026-06-21", "2000-02-29"};
+    else if (pointer.ends_with("/meters/0/threshold"))
+      all = {"2500 W/m^2", "5 lx"};
     else if (pointer == "/animation/tracks/0/path")
       all = {"white"};
     else if (node["type"] == "string")
       all = {owner.starts_with("InversePicture") ? "A \"quoted\" \\ ~/" : "Grüße, \"quoted\" \\ ~/", "other"};
     else {
       const double x = now.is_number() ? now.get<double>() : 1;
-      for (const double to : {x + 1, x - 1, x / 2, x + 0.5, x + 90}) // a file turns by quarters
+      for (const double to : {x + 1, x - 1, x / 2, x + 0.5, x + 90, x + 0.01}) // a file turns by quarters
         if (to != x) all.push_back(Json(to).dump());
       if (node["type"] == "integer")
         for (std::string& number : all) number = number.substr(0, number.find('.'));
@@ -221,7 +223,7 @@ protected:
         search(dotted(pointer));
         click(pointer + ":given");
         EXPECT_FALSE(drafted(pointer).is_null());
-        if (pointer.ends_with("/sun_direction")) enter(pointer + "/1", "1");
+        if (pointer.ends_with("/sun_direction") || pointer.ends_with("/facing")) enter(pointer + "/1", "1");
         if (type.empty() && drafted(pointer) == "")
           set(given(property), pointer, candidates(given(property), pointer, owner).front());
       }
@@ -272,6 +274,7 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
   Json preset = Json::parse(test::preset_text);
   preset["scene"]["materials"]["glass"] = {{"type", "dielectric"}, {"dispersion", 1.5}};
   preset["scene"]["objects"].push_back({{"name", "floor"}, {"material", "wall"}, {"shape", {{"type", "quad"}}}});
+  preset["scene"]["meters"] = {{{"type", "plane"}, {"name", "meter"}}};
   open(preset.dump());
   ASSERT_FALSE(HasFatalFailure());
   const std::string before = text();
