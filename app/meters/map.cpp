@@ -23,7 +23,7 @@ std::optional<double> between(const Map& map, const std::vector<double>& values,
   for (int dy = 0; dy < 2; ++dy)
     for (int dx = 0; dx < 2; ++dx) {
       const int i = std::clamp(column + dx, 0, map.width - 1), j = std::clamp(row + dy, 0, map.height - 1);
-      const int cell = map.cells[static_cast<std::size_t>(j * map.width + i)];
+      const int cell = map.cells[map.place(j, i)];
       const double weight = std::abs(1 - dx - (x - column)) * std::abs(1 - dy - (y - row));
       if (cell < 0) continue;
       sum += weight * values[static_cast<std::size_t>(cell)];
@@ -36,7 +36,8 @@ std::optional<double> between(const Map& map, const std::vector<double>& values,
 void draw_words(measure::Bitmap& bitmap, int x, int y, const image::Image& words) {
   for (int row = 0; row < words.height && y + row < bitmap.height; ++row)
     for (int column = 0; column < words.width && x + column < bitmap.width; ++column) {
-      const float ink = words.data[static_cast<std::size_t>(row * words.width + column)];
+      const float ink = words.data[static_cast<std::size_t>(row) * static_cast<std::size_t>(words.width) +
+                                   static_cast<std::size_t>(column)];
       const auto grey = static_cast<unsigned char>(std::lround(32 + 192 * ink));
       bitmap.set(x + column, y + row, {grey, grey, grey});
     }
@@ -55,8 +56,7 @@ Map map_of(const scene::MeterSurface& surface) {
   for (const scene::MeterChart& chart : surface.charts) {
     for (int row = 0; row < chart.rows; ++row)
       for (int column = 0; column < chart.columns; ++column)
-        map.cells[static_cast<std::size_t>(row * map.width + left + column)] =
-            surface.cells[chart.first + static_cast<std::size_t>(row * chart.columns + column)];
+        map.cells[map.place(row, left + column)] = surface.cells[chart.first + chart.place(row, column)];
     left += chart.columns + 1;
   }
   return map;
@@ -131,7 +131,9 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
   measure::draw(beside, 0, bar);
   for (int y = 0; y < bar.height; ++y)
     for (int x = 0; x < bar.width; ++x) {
-      const unsigned char* from = beside.rgba.data() + 4 * static_cast<std::size_t>(y * bar.width + x);
+      const unsigned char* from =
+          beside.rgba.data() +
+          4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(bar.width) + static_cast<std::size_t>(x));
       bitmap.set(width + x, top + y, {from[0], from[1], from[2]});
     }
   draw_words(bitmap, width + 6, 6, words);
@@ -141,7 +143,7 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
   };
   for (int y = 0; y < map.height * zoom; ++y)
     for (int x = 0; x < width; ++x) {
-      const int cell = map.cells[static_cast<std::size_t>(y / zoom * map.width + x / zoom)];
+      const int cell = map.cells[map.place(y / zoom, x / zoom)];
       if (cell < 0) {
         bitmap.set(x, top + y, nothing);
         continue;

@@ -14,6 +14,9 @@ namespace nephroid::meters {
 struct Map {
   int width = 0, height = 0;
   std::vector<int> cells; ///< [row from the top][column]; -1: none
+  std::size_t place(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+  }
 };
 Map map_of(const scene::MeterSurface& surface);
 

@@ -157,9 +157,7 @@ struct Builder {
         Polygon part = strip;
         if (column > 0) part = clipped(part, chart.right, left);
         if (column + 1 < chart.columns) part = clipped(part, -chart.right, -(left + chart.cell_width));
-        if (part.size() >= 3)
-          places[chart.first + static_cast<std::size_t>(row * chart.columns + column)].emplace_back(std::move(part),
-                                                                                                    area_scale);
+        if (part.size() >= 3) places[chart.first + chart.place(row, column)].emplace_back(std::move(part), area_scale);
       }
     }
   }
@@ -269,7 +267,7 @@ void make_plane(const preset::Meter& meter, const Scene& scene, const Location& 
       const glm::dvec3 a = from + column * chart.cell_width * chart.right - row * chart.cell_height * chart.up,
                        b = a - chart.cell_height * chart.up, c = b + chart.cell_width * chart.right,
                        d = a + chart.cell_width * chart.right;
-      builder.places[static_cast<std::size_t>(row * chart.columns + column)].emplace_back(Polygon{a, b, c, d}, 1.0);
+      builder.places[chart.place(row, column)].emplace_back(Polygon{a, b, c, d}, 1.0);
     }
   builder.finish(above);
 }

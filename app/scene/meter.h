@@ -22,6 +22,9 @@ struct MeterChart {
   int columns = 1, rows = 1;
   std::size_t first = 0; ///< its first place in MeterSurface::cells
   glm::dvec3 normal() const { return glm::cross(right, up); }
+  std::size_t place(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  }
   std::size_t places() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
