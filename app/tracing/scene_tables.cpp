@@ -203,7 +203,8 @@ float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 /// A flat one.
 shared::DevicePrimitive device_triangle(const std::array<glm::vec3, 3>& corners, int object) {
-  const glm::vec3 a = corners[0], ab = corners[1] - a, ac = corners[2] - a;
+  const glm::vec3& a = corners[0];
+  const glm::vec3 ab = corners[1] - a, ac = corners[2] - a;
   const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(ab), glm::dvec3(ac))));
   // The formula of triangle_offset of kernels/tracing/surface.h.
   const float offset = 0x1p-21f * largest(glm::max(glm::abs(a), glm::max(glm::abs(ab), glm::abs(ac))));
