@@ -11,11 +11,10 @@
 namespace nephroid::job {
 
 struct Layer {
-  std::string name;                   ///< "direct", "caustic", ...
-  std::vector<float> rgb;             ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
-  std::vector<float> error_draw = {}; ///< as Picture::error_draw; only in Snapshot::left and Beginning
-  std::vector<double> replicates =
-      {}; ///< of a meter alone, in the place of rgb: [replicate][cell][3] (photons/meter.h)
+  std::string name;                    ///< "direct", "caustic", ...
+  std::vector<float> rgb;              ///< linear sRGB, 3 a pixel, row 0 at the top, divided by the preset's white
+  std::vector<float> error_draw = {};  ///< as Picture::error_draw; only in Snapshot::left and Beginning
+  std::vector<double> replicates = {}; ///< of a meter, in the place of rgb: [replicate][cell][3] (photons/meter.h)
 };
 
 struct Picture {

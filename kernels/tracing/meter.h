@@ -38,7 +38,7 @@ static inline int cell_met(const World* world, const DeviceCamera* meter, const 
     const bool is_flat = chart->is_flat != 0;
     if (is_flat ? fabs(faces) < 0.5f : faces < max(sizes.x, max(sizes.y, sizes.z))) continue;
     const float3 outwards = is_flat ? chart->normal.xyz : surface->geometric;
-    return dot(arriving, outwards) < 0.0f ? cell_at(world, chart, surface->position) : -1;
+    return dot(arriving, outwards) < 0.0f ? cell_at(world, chart, place) : -1;
   }
   return -1;
 }
@@ -46,7 +46,7 @@ static inline int cell_met(const World* world, const DeviceCamera* meter, const 
 // What a photon adds to the cells that it crosses.
 typedef struct {
   const DeviceCamera* meter;
-  volatile __global long* film; // of its half
+  volatile __global long* film; // of its replicate
   float scale;                  // quanta per unit of radiance
   SET_ASIDE float dither;
   SET_ASIDE int refused; // contributions, by the film
