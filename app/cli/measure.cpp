@@ -216,10 +216,7 @@ void add_measure(CLI::App& program, Session&) {
        .to = 1e9});
   verb.option("--seed", options->seed,
               {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
-  verb.option("--device", options->device.selector,
-              {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
-  verb.option("--kernels", options->device.kernels,
-              {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.device(options->device.selector, options->device.kernels);
   verb.flag("--json", options->json, "One JSON object instead of text");
   verb.work([options] { measure(*options); });
 }

@@ -243,10 +243,7 @@ void add_run(CLI::App& program, Session&) {
        .to = 1e9});
   verb.option("--seed", options->seed,
               {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
-  verb.option("--device", options->device.selector,
-              {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
-  verb.option("--kernels", options->device.kernels,
-              {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+  verb.device(options->device.selector, options->device.kernels);
   verb.option("--checkpoint-seconds", options->checkpoint_seconds,
               {.type = "S", .says = "Work between checkpoints (default 10)", .from = 0.0, .to = 1e9});
   verb.option("--pictures-at", options->pictures_at,

@@ -102,6 +102,11 @@ void Verb::overrides(std::vector<std::string>& values, const std::string& says) 
   option("--set", values, {.type = "KEY=VALUE", .says = says});
 }
 
+void Verb::device(std::string& selector, std::filesystem::path& kernels) {
+  option("--device", selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  option("--kernels", kernels, {.type = "DIR", .says = "Load kernels from this folder instead of the built-in ones"});
+}
+
 void Verb::work(std::function<void()> work) { app_.callback(std::move(work)); }
 
 } // namespace nephroid::cli

@@ -2,6 +2,7 @@
 // A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp,
 // manual.cpp and completions.cpp only: each file that includes it takes seconds more to compile.
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -55,6 +56,8 @@ public:
   /// --set KEY=VALUE
   void overrides(std::vector<std::string>& values,
                  const std::string& says = "Change a setting: scene.lights.0.power_w=2; may be repeated");
+  /// --device SEL and --kernels DIR
+  void device(std::string& selector, std::filesystem::path& kernels);
   void work(std::function<void()> work);
 
 private:
