@@ -201,6 +201,13 @@ def grazing_rainbow(s, name):
     )
 
 
+def meters_facade(s, name):
+    """The map of a meter, not a picture of a run."""
+    folder = s.folder / "meters-facade"
+    s.call(s.program, "measure", "measuring/concave-facade", "--seconds", 0.1 if s.small else 60, "-o", folder)
+    s.keep(name, [folder / "street.png"])
+
+
 def inverse_glass(s, name):
     s.keep(
         name,
@@ -343,6 +350,7 @@ MAKERS = {
     "front.jpg": front,
     "first-light.png": first_light,
     "grazing-rainbow.png": grazing_rainbow,
+    "meters-facade.png": meters_facade,
     "inverse-glass.png": inverse_glass,
     "gallery.jpg": gallery,
     "materials.jpg": materials,
