@@ -69,12 +69,12 @@ void print_numbers(const MeterInHand& meter, const Reading& reading, Quantity qu
   }
 }
 
-void print_text(const MeterInHand& meter, const preset::Preset& preset) {
+void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::Band band) {
   const Reading& reading = *meter.reading;
   const Numbers &watts = reading.all().numbers(Quantity::irradiance),
                 &lux = reading.all().numbers(Quantity::illuminance);
-  fmt::print("{}: {}, {:.4g} m^2; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"), reading.area_m2,
-             meter.seconds);
+  fmt::print("{}: {}, {:.4g} m^2, light of {}; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"),
+             reading.area_m2, text_of(band), meter.seconds);
   if (meter.photons > 0) fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.photons));
   fmt::print("\n");
   print_numbers(meter, reading, Quantity::irradiance);
@@ -137,10 +137,13 @@ void report(const MeasureOptions& options, const run::Metering& metering) {
   Json list = Json::array();
   for (const MeterInHand& meter : metering.meters()) {
     list.push_back(to_json(meter));
-    if (!options.json) print_text(meter, metering.prepared().preset);
+    if (!options.json) print_text(meter, metering.prepared().preset, metering.band());
     if (!options.folder.empty()) write_files(options.folder, meter, metering.prepared().loaded->scene.metres_per_unit);
   }
-  const Json object{{"preset", metering.prepared().preset.name}, {"confidence", 0.95}, {"meters", list}};
+  const Json object{{"preset", metering.prepared().preset.name},
+                    {"wavelengths", text_of(metering.band())},
+                    {"confidence", 0.95},
+                    {"meters", list}};
   if (options.json) fmt::print("{}\n", json_text(object));
   if (!options.folder.empty()) write_file_whole(options.folder / "measure.json", object.dump(2) + "\n");
 }

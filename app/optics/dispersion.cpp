@@ -151,29 +151,36 @@ IndexSample DispersionCurve::sample(double nm, Extrapolation outside) const {
   return result;
 }
 
-Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside) {
+Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside, Band band) {
   if (!curve.n)
     throw bad_input(curve.source, curve.name + " has no index of refraction n, only k", {}, "choose another file");
   if (const auto gap = curve.n->gap_nm; gap && outside == Extrapolation::refuse)
     throw bad_input(
         curve.source, fmt::format("{} has no n between {:.6g} and {:.6g} nm", curve.name, gap->front(), gap->back()),
         "expected a table without gaps from 380 to 780 nm", "outside \"hold\" draws a straight line across");
-  return spectrum_of([&](double nm) {
-    const std::optional<double> n = curve.sample(nm, outside).n;
-    if (!n) throw no_index(curve, nm, outside);
-    if (!(*n > 0))
-      throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm), "expected n above 0");
-    return *n;
-  });
+  return spectrum_of(
+      [&](double nm) {
+        std::optional<double> n = curve.sample(nm, outside).n;
+        if (band != Band::visible && outside != Extrapolation::refuse && !(n && *n > 0))
+          n = curve.sample(nm, Extrapolation::hold).n;
+        if (!n) throw no_index(curve, nm, outside);
+        if (!(*n > 0))
+          throw bad_input(curve.source, fmt::format("{} has n = {} at {} nm", curve.name, *n, nm),
+                          "expected n above 0");
+        return *n;
+      },
+      band);
 }
 
-Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside) {
+Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside, Band band) {
   if (!curve.k) return {};
   const double low = curve.k->low_nm, high = curve.k->high_nm;
-  return spectrum_of([&](double nm) {
-    if (outside == Extrapolation::refuse && is_outside(nm, low, high)) throw refusal(curve, "k", nm, low, high);
-    return std::max(0.0, curve.k->value(std::clamp(nm, low, high)));
-  });
+  return spectrum_of(
+      [&](double nm) {
+        if (outside == Extrapolation::refuse && is_outside(nm, low, high)) throw refusal(curve, "k", nm, low, high);
+        return std::max(0.0, curve.k->value(std::clamp(nm, low, high)));
+      },
+      band);
 }
 
 Curve curve_of(LinearTable table) {
@@ -188,13 +195,14 @@ std::optional<double> abbe_number(const DispersionCurve& curve) {
   return (*d.n - 1) / (*f.n - *c.n);
 }
 
-std::string outside_note(const DispersionCurve& curve, Extrapolation outside) {
+std::string outside_note(const DispersionCurve& curve, Extrapolation outside, Band band) {
   if (!curve.n) return {};
+  const double from = cells(band).nm.front(), to = cells(band).nm.back();
   const double low = curve.n->low_nm, high = curve.n->high_nm;
   std::string where;
-  if (is_outside(first_nm, low, high)) where = fmt::format("below {:.6g} nm", std::min(low, double{last_nm}));
-  if (is_outside(last_nm, low, high))
-    where += fmt::format("{}above {:.6g} nm", where.empty() ? "" : " and ", std::max(high, double{first_nm}));
+  if (is_outside(from, low, high)) where = fmt::format("below {:.6g} nm", std::min(low, to));
+  if (is_outside(to, low, high))
+    where += fmt::format("{}above {:.6g} nm", where.empty() ? "" : " and ", std::max(high, from));
   std::vector<std::string> notes;
   const bool held = outside == Extrapolation::hold || !curve.n->formula;
   if (!where.empty())

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "optics/tables.h"
 
 #include <Eigen/Dense>
 
@@ -93,9 +94,19 @@ std::array<Spectrum, 3> make_primary_reflectances() {
 
 } // namespace
 
-const std::array<Spectrum, 3>& primary_reflectances() {
-  static const std::array<Spectrum, 3> spectra = make_primary_reflectances();
-  return spectra;
+const std::array<Spectrum, 3>& primary_reflectances(Band band) {
+  static const std::array<Spectrum, 3> visible = make_primary_reflectances();
+  static const std::array<Spectrum, 3> solar = [] {
+    std::array<Spectrum, 3> spectra{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::vector<Row> rows;
+      for (int w = 0; w < wavelength_count; ++w)
+        rows.push_back({double(wavelength_nm(w)), visible[c][static_cast<std::size_t>(w)]});
+      spectra[c] = spectrum_of(LinearTable(std::move(rows)), Band::solar);
+    }
+    return spectra;
+  }();
+  return band == Band::visible ? visible : solar;
 }
 
 } // namespace nephroid::optics

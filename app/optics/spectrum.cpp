@@ -15,9 +15,10 @@ namespace nephroid::optics {
 namespace {
 
 /// Divides by the sum over 380..780 nm. Throws bad_input where there is nothing to divide.
-Spectrum normalised(Spectrum spectrum, const std::string& what) {
+Spectrum normalised(Spectrum spectrum, const std::string& what, Band band = Band::visible) {
   double sum = 0;
-  for (double value : spectrum) sum += value;
+  for (std::size_t i = 0; i < spectrum.size(); ++i)
+    if (const double nm = cells(band).nm[i]; nm > first_nm - 0.5 && nm < last_nm + 0.5) sum += spectrum[i];
   if (!(sum > 0) || !std::isfinite(sum))
     throw bad_input({}, what + fmt::format(" has no power in {}..{} nm", first_nm, last_nm),
                     "expected at least one wavelength with power there");
@@ -26,7 +27,19 @@ Spectrum normalised(Spectrum spectrum, const std::string& what) {
 }
 
 /// The end values are held outside the table.
-Spectrum held(const LinearTable& table) { return spectrum_of(table); }
+Spectrum held(const LinearTable& table, Band band) { return spectrum_of(table, band); }
+
+/// Of a table that is 0 outside, from low to high.
+double integral(const LinearTable& table, double low, double high) {
+  low = std::max(low, table.low()), high = std::min(high, table.high());
+  if (!(low < high)) return 0;
+  double sum = 0, from = low;
+  const auto add = [&](double to) { sum += (to - from) * (table(from) + table(to)) / 2, from = to; };
+  for (const Row& row : table.rows())
+    if (row[0] > low && row[0] < high) add(row[0]);
+  add(high);
+  return sum;
+}
 
 /// The mean about a wavelength by weights that fall to 0 at its two neighbours, so that sums over all wavelengths are
 /// integrals and keep their place. It is exact: between corners, table times weight is a parabola. An end of the table
@@ -82,22 +95,27 @@ const Table& colorchecker() {
 
 const std::vector<std::string>& illuminant_names() { return illuminants().columns; }
 
-Spectrum illuminant(const std::string& name) {
-  return normalised(spectrum_of_table(column(illuminants(), "illuminant", name).rows()), "illuminant " + name);
+Spectrum illuminant(const std::string& name, Band band) {
+  const LinearTable table = column(illuminants(), "illuminant", name);
+  return rebinned(normalised(spectrum_of_table(table.rows()), "illuminant " + name), band);
 }
 
-Spectrum blackbody(double temperature_k) {
+Spectrum blackbody(double temperature_k, Band band) {
   if (!std::isfinite(temperature_k) || !(temperature_k > 0))
     throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "expected a temperature above 0 K");
   // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value
   // at the red end, exponents stay small: a body of 1 K has no blue light, and not 0 / 0 of it.
   constexpr double c2_nm_k = 1.438776877503933e7;
   const double reference = c2_nm_k / (last_nm * temperature_k);
-  const Spectrum spectrum = spectrum_of([&](double nm) {
-    const double exponent = c2_nm_k / (nm * temperature_k);
-    return std::pow(last_nm / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) / std::expm1(-exponent);
-  });
-  return normalised(spectrum, fmt::format("a black body of {} K", temperature_k));
+  Spectrum spectrum = spectrum_of(
+      [&](double nm) {
+        const double exponent = c2_nm_k / (nm * temperature_k);
+        return std::pow(last_nm / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) /
+               std::expm1(-exponent);
+      },
+      band);
+  for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] *= cells(band).width_nm[i];
+  return normalised(spectrum, fmt::format("a black body of {} K", temperature_k), band);
 }
 
 Spectrum spectrum_of_table(std::span<const Row> sorted) {
@@ -107,16 +125,38 @@ Spectrum spectrum_of_table(std::span<const Row> sorted) {
   return spectrum_of([&](double nm) { return nm >= table.low() && nm <= table.high() ? table(nm) : 0; });
 }
 
-Spectrum light_table(std::span<const std::array<double, 2>> nm_power) {
-  require_no_negative_power(nm_power);
-  return normalised(spectrum_of_table(sorted_rows(nm_power, Duplicates::refuse, {})), "the light's table");
+Spectrum integrals_of_table(std::span<const Row> sorted, Band band) {
+  const LinearTable table({sorted.begin(), sorted.end()});
+  Spectrum spectrum{};
+  for (std::size_t i = 0; i < spectrum.size(); ++i) {
+    const double nm = cells(band).nm[i], half = cells(band).width_nm[i] / 2;
+    spectrum[i] = integral(table, nm - half, nm + half);
+  }
+  return spectrum;
 }
 
-Spectrum light_lines(std::span<const std::array<double, 2>> nm_power) {
+Spectrum light_table(std::span<const std::array<double, 2>> nm_power, Band band) {
+  require_no_negative_power(nm_power);
+  const std::vector<Row> rows = sorted_rows(nm_power, Duplicates::refuse, {});
+  const Spectrum visible = normalised(spectrum_of_table(rows), "the light's table");
+  if (band == Band::visible || !(rows.front()[0] < first_nm || rows.back()[0] > last_nm))
+    return rebinned(visible, band);
+  return normalised(integrals_of_table(rows, band), "the light's table", band);
+}
+
+Spectrum light_lines(std::span<const std::array<double, 2>> nm_power, Band band) {
   require_no_negative_power(nm_power);
   Spectrum spectrum{};
   for (const auto& [nm, power] : nm_power) {
     if (!std::isfinite(nm) || !std::isfinite(power)) throw bad_input({}, "a line holds a number that is not finite");
+    if (band != Band::visible) {
+      for (std::size_t i = 0; i < spectrum.size(); ++i)
+        if (std::abs(nm - cells(band).nm[i]) <= cells(band).width_nm[i] / 2) {
+          spectrum[i] += power;
+          break;
+        }
+      continue;
+    }
     if (nm < first_nm || nm > last_nm) continue;
     const double position = nm - first_nm;
     const auto below = static_cast<std::size_t>(position);
@@ -124,20 +164,20 @@ Spectrum light_lines(std::span<const std::array<double, 2>> nm_power) {
     spectrum[below] += power * (1 - share);
     if (share > 0) spectrum[below + 1] += power * share;
   }
-  return normalised(spectrum, "the light's list of lines");
+  return normalised(spectrum, "the light's list of lines", band);
 }
 
 const std::vector<std::string>& colorchecker_names() { return colorchecker().columns; }
 
-Spectrum colorchecker_patch(const std::string& name) {
-  return held(column(colorchecker(), "ColorChecker patch", name));
+Spectrum colorchecker_patch(const std::string& name, Band band) {
+  return held(column(colorchecker(), "ColorChecker patch", name), band);
 }
 
-Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance) {
+Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance, Band band) {
   for (const auto& [nm, value] : nm_reflectance)
     if (!(value >= 0 && value <= 1))
       throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "expected 0 to 1");
-  return held(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})));
+  return held(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})), band);
 }
 
 Spectrum constant_spectrum(double value) {

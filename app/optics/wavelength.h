@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wavelength grid of the whole program: 401 wavelengths, 380..780 nm in steps of 1 nm.
+// The wavelengths of a run: 401 cells. Pictures are of the visible band, 380..780 nm in steps of 1 nm. Meters of scenes
+// with light beyond it are of the solar band, 280..4000 nm.
 #pragma once
 #include <array>
 #include <numeric>
@@ -11,18 +12,36 @@ inline constexpr int first_nm = 380;
 inline constexpr int last_nm = 780;
 inline constexpr int wavelength_count = last_nm - first_nm + 1;
 
-/// One value a wavelength, index i for first_nm + i.
+/// One value a cell of wavelengths; in the visible band index i is for first_nm + i.
 using Spectrum = std::array<double, wavelength_count>;
 
 inline constexpr int wavelength_nm(int index) { return first_nm + index; }
 
-/// The spectrum of value(nm).
+/// Which wavelengths the cells have. A quantity of light in a cell is in W, W m^-2, ..., all of the cell's together; a
+/// quantity of matter is that at the cell's middle.
+enum class Band { visible, solar };
+
+/// Rising, without gaps: a cell begins where the one below ends.
+struct Cells {
+  Spectrum nm, width_nm;
+};
+/// Solar: 20 cells below the visible, 100 of 4 nm in it, 281 of .6 % of their wavelength beyond.
+const Cells& cells(Band band);
+
+/// The band's words for people: "380 to 780 nm".
+const char* text_of(Band band);
+
+/// The spectrum of value(nm) at the cells' middles.
 template <class Value>
-Spectrum spectrum_of(const Value& value) {
+Spectrum spectrum_of(const Value& value, Band band = Band::visible) {
   Spectrum spectrum{};
-  for (int i = 0; i < wavelength_count; ++i) spectrum[static_cast<std::size_t>(i)] = value(wavelength_nm(i));
+  const Spectrum& nm = cells(band).nm;
+  for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] = value(nm[i]);
   return spectrum;
 }
+
+/// Light of the visible band, in the cells of another one: its sum stays.
+Spectrum rebinned(const Spectrum& visible, Band band);
 
 /// Fraunhofer's lines, at which indices of refraction are given; the Abbe number is (n_d - 1) / (n_F - n_C).
 inline constexpr double line_f_nm = 486.1327, line_e_nm = 546.0740, line_d_nm = 587.5618, line_c_nm = 656.2725;

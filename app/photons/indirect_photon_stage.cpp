@@ -24,10 +24,9 @@
 namespace nephroid::photons {
 namespace {
 
-/// What the eye makes of each wavelength of the light at `index` of the tables.
-std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, const scene::Light& light,
-                                     std::size_t index) {
-  const optics::ColourMatching& eye = optics::cie_1931();
+/// What the film makes of each wavelength of the light at `index` of the tables.
+std::vector<double> wavelength_worth(const optics::ColourMatching& eye, const tracing::WavelengthTables& tables,
+                                     const scene::Light& light, std::size_t index) {
   std::vector<double> weights;
   for (const int wavelength : tables.cluster_wavelengths) {
     const auto w = static_cast<std::size_t>(wavelength);
@@ -55,7 +54,7 @@ IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& 
   std::vector<PhotonSource> sources;
   for (std::size_t l = 0; l < tables.lights.size(); ++l) {
     const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
-    const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
+    const std::vector<double> weights = wavelength_worth(tracing::response_of(scene), tables.wavelengths, light, l);
     const double sent = lights::is_narrow(tables.lights[l]) ? light.power_w : tables.towards_targets_w[l];
     sources.push_back({sent * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
     result.watts += sent;

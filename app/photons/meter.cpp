@@ -67,6 +67,7 @@ RunPlan plan_meter(const preset::Preset& preset, const Settings& wanted, const s
   settings.relight = settings.background = false;
   settings.direct = settings.caustic = true; // what falls on it is all of it
   settings.indirect = true;
+  settings.effort = Settings::Effort::automatic; // others ask what an eye sees
   // Short passes: there is a first interval after a cycle of them.
   settings.photons_per_pass = std::max(wanted.photons_per_pass / static_cast<int>(meter_replicates), 1);
   settings.indirect_photons_per_pass =

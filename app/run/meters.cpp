@@ -16,9 +16,12 @@
 namespace nephroid::run {
 namespace {
 
-/// The scene with its environment as a light where the engine always takes it for one.
+/// The scene with all of its light, also beyond the visible, and with its environment as a light where the engine
+/// always takes it for one.
 scene::Scene lit_scene(const Prepared& prepared) {
-  scene::Scene scene = prepared.loaded->scene;
+  scene::Scene scene = scene::reaches_beyond_visible(prepared.preset)
+                           ? scene::in_band(prepared.loaded->scene, prepared.preset, optics::Band::solar)
+                           : prepared.loaded->scene;
   const bool decides = std::any_cast<photons::Settings>(&prepared.preset.settings.value()) != nullptr;
   if (decides || !scene.environment || scene.environment->lights || scene.environment->is_black()) return scene;
   scene.environment->lights = true;
@@ -54,6 +57,9 @@ Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, co
     throw bad_input(where, "is empty: there is nothing to measure", "expected a meter",
                     "add one: --set 'scene.meters=[{\"type\":\"surface\",\"name\":\"floor\",\"object\":\"floor\"}]'");
   const scene::Scene scene = lit_scene(prepared);
+  band_ = scene.band;
+  if (band_ != optics::Band::visible) notes_ = scene.warnings;
+  if (scene.environment && !scene.environment->about.empty()) notes_.push_back(scene.environment->about);
   for (std::size_t i = 0; i < preset.scene.meters.size(); ++i) {
     const preset::Meter& meter = preset.scene.meters[i];
     if (!only.empty() && meter.name != only) continue;
@@ -98,7 +104,7 @@ bool Metering::is_enough(double percent) const {
 }
 
 std::vector<std::string> Metering::notes() const {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = notes_;
   for (const MeterInHand& meter : meters_)
     for (const std::string& note : meter.plan.notes)
       if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);

@@ -35,13 +35,17 @@ public:
   /// Whether all have the intervals that they ask for, or `percent` where they ask for none.
   bool is_enough(double percent) const;
   double work_seconds() const;
-  /// What the plans say besides, a line each, once.
+  /// Of what wavelengths the numbers are: of the solar band where a light reaches beyond the visible.
+  optics::Band band() const { return band_; }
+  /// What the light is, what of it had to be assumed, and what the plans say besides, a line each, once.
   std::vector<std::string> notes() const;
   const std::vector<MeterInHand>& meters() const { return meters_; }
   const Prepared& prepared() const { return prepared_; }
 
 private:
   Prepared prepared_;
+  optics::Band band_ = optics::Band::visible;
+  std::vector<std::string> notes_;
   std::vector<MeterInHand> meters_;
   std::size_t next_ = 0;
 };

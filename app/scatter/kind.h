@@ -17,6 +17,7 @@ struct Loading {
   const preset::Material& from;
   const FileFinder& finder;
   const Location& where;
+  optics::Band band;
   std::string owner; ///< "material 'wall'"
   std::vector<std::string>& warnings;
 
@@ -39,6 +40,7 @@ struct Loading {
 struct Rows {
   DeviceMaterials& tables;
   shared::DeviceMaterial& row;
+  optics::Band band;
 
   /// Adds a row of losses and returns its number; -1 for none.
   int loss(std::span<const double> coefficients);

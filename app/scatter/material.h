@@ -32,6 +32,7 @@ struct Material {
   optics::Spectrum tint{};                          ///< the part of the light that passes its surface
   bool thin = false;                                ///< a pane without thickness
   double alpha = 0;                                 ///< of GGX, where no texture makes it less; 0: polished
+  optics::Band band = optics::Band::visible;        ///< of its spectra
   double coating_nm = 0;                            ///< thickness of a film with interference; 0: none
   optics::Spectrum coating_n{};
 };
@@ -89,7 +90,8 @@ std::vector<double> loss_at_surface(const Material& material);
 /// where: the material's. Throws bad_input for what its type cannot be, each in its file. Adds a warning where n is
 /// wanted outside the data's range, and for what a texture does not say.
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
-                       const Location& where, std::vector<std::string>& warnings);
+                       const Location& where, std::vector<std::string>& warnings,
+                       optics::Band band = optics::Band::visible);
 
 /// What materials put into the tables of a scene (kernels/tracing/scene_table_types.h).
 struct DeviceMaterials {

@@ -21,8 +21,8 @@ int rows_of(const std::vector<float>& table) { return static_cast<int>(table.siz
 std::vector<double> loss_inside(const Material& material) {
   std::vector<double> a;
   if (!material.absorbs) return a;
-  for (int w = 0; w < optics::wavelength_count; ++w)
-    a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
+  for (std::size_t w = 0; w < optics::wavelength_count; ++w)
+    a.push_back(4 * std::numbers::pi * material.k[w] / (optics::cells(material.band).nm[w] * 1e-9));
   return a;
 }
 
@@ -58,7 +58,7 @@ int Rows::colour(const optics::Spectrum& colour, double factor, bool is_textured
   };
   const int first = rows_of(tables.reflectance);
   add(optics::constant_spectrum(1));
-  if (is_textured) std::ranges::for_each(optics::primary_reflectances(), add);
+  if (is_textured) std::ranges::for_each(optics::primary_reflectances(band), add);
   return first;
 }
 
@@ -70,7 +70,7 @@ int Rows::data(std::span<const double> values) {
 
 DeviceMaterials device_materials(const std::vector<Material>& materials, const std::vector<bool>& used) {
   DeviceMaterials tables;
-  tables.materials.assign(materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, 0, -1, -1, -1, 0});
+  tables.materials.assign(materials.size(), {MATERIAL_DIFFUSE, 0, -1, -1, -1, 0, 0, -1, -1, -1, 0});
   int textures = 0;
   const auto number = [&](const std::shared_ptr<const Texture>& texture) { return texture ? textures++ : -1; };
   for (std::size_t i = 0; i < materials.size(); ++i) {
@@ -83,7 +83,7 @@ DeviceMaterials device_materials(const std::vector<Material>& materials, const s
     row.roughness_texture = number(material.roughness_texture);
     row.normal_map = number(material.normal_map);
     row.splits_wavelengths = splits_wavelengths(material);
-    Rows rows{tables, row};
+    Rows rows{tables, row, material.band};
     kind_of(material.type).add_rows(material, rows);
   }
   return tables;

@@ -101,28 +101,37 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
   });
 }
 
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where) {
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where, optics::Band band) {
   using Type = preset::LightSpectrum::Type;
   return at(where, [&] {
     switch (spectrum.type) {
-    case Type::blackbody: return optics::blackbody(spectrum.temperature_k);
-    case Type::lines: return optics::light_lines(spectrum.table);
-    case Type::table: return optics::light_table(spectrum.table);
+    case Type::blackbody: return optics::blackbody(spectrum.temperature_k, band);
+    case Type::lines: return optics::light_lines(spectrum.table, band);
+    case Type::table: return optics::light_table(spectrum.table, band);
     case Type::illuminant: break;
     }
-    return optics::illuminant(spectrum.illuminant);
+    return optics::illuminant(spectrum.illuminant, band);
   });
 }
 
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where) {
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where, optics::Band band) {
   using Type = preset::Reflectance::Type;
   return at(where, [&] {
     switch (reflectance.type) {
-    case Type::patch: return optics::colorchecker_patch(reflectance.patch);
-    case Type::table: return optics::reflectance_table(reflectance.table);
+    case Type::patch: return optics::colorchecker_patch(reflectance.patch, band);
+    case Type::table: return optics::reflectance_table(reflectance.table, band);
     case Type::constant: break;
     }
     return optics::constant_spectrum(reflectance.value);
+  });
+}
+
+bool reaches_beyond(const preset::LightSpectrum& spectrum) {
+  using Type = preset::LightSpectrum::Type;
+  if (spectrum.type == Type::blackbody) return true;
+  if (spectrum.type == Type::illuminant) return false;
+  return std::ranges::any_of(spectrum.table, [](const std::array<double, 2>& row) {
+    return row[1] > 0 && (row[0] < optics::first_nm || row[0] > optics::last_nm);
   });
 }
 

@@ -52,9 +52,14 @@ optics::DispersionCurve load_dispersion(const std::string& name);
 /// where (all three): the field's FILE#/json/pointer. They throw bad_input there with the reason that optics gives.
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder,
                                    const Location& where);
-/// Sums to 1.
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where);
+/// Its part of 380..780 nm sums to 1 (optics/spectrum.h).
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where,
+                                     optics::Band band = optics::Band::visible);
 /// Each value in 0..1.
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where);
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where,
+                                  optics::Band band = optics::Band::visible);
+
+/// Whether the light has power, by its data, beyond 380..780 nm.
+bool reaches_beyond(const preset::LightSpectrum& spectrum);
 
 } // namespace nephroid::scatter

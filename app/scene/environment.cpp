@@ -152,13 +152,13 @@ bool Environment::is_black() const {
 }
 
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Location& where,
-                             std::vector<std::string>& warnings) {
+                             std::vector<std::string>& warnings, optics::Band band) {
   Environment result;
   if (environment.type == preset::Environment::Type::file) {
     result = read_environment(finder.find(environment.file, where / "file"), environment.radiance, warnings);
     result.rotate_deg = environment.rotate_deg;
   } else if (environment.type == preset::Environment::Type::sky) {
-    result = make_sky(environment);
+    result = make_sky(environment, band);
     mix_colours_beyond_srgb(result.rgb, "sky", warnings);
     result.rotate_deg = environment.rotate_deg;
   } else {
@@ -166,6 +166,7 @@ Environment make_environment(const preset::Environment& environment, const FileF
     for (const double value : environment.colour) result.rgb.push_back(static_cast<float>(value));
     check_texels(result.rgb, 1, where / "colour");
   }
+  if (environment.type != preset::Environment::Type::sky) result.primaries = optics::primary_spectra(band);
   result.radiance = environment.radiance;
   result.lights = environment.lights && !result.is_black();
   return result;
@@ -193,7 +194,7 @@ EnvironmentFlux flux_of(const Environment& environment) {
       add_texel(environment, static_cast<std::size_t>(row) * width + column, steradians, flux, products);
   }
   for (double& channel : flux.mean) channel /= flux.grey;
-  const std::array<optics::Spectrum, 3>& primaries = optics::primary_spectra();
+  const std::array<optics::Spectrum, 3>& primaries = environment.primaries;
   for (std::size_t w = 0; w < flux.spectrum.size(); ++w) {
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c)
@@ -211,7 +212,7 @@ Light make_environment_light(const Environment& environment) {
   light.type = preset::Light::Type::directional;
   light.irradiance_w_m2 = environment.radiance * flux.grey * flux.power;
   light.spectrum = flux.spectrum;
-  light.primaries.assign(optics::primary_spectra().begin(), optics::primary_spectra().end());
+  light.primaries.assign(environment.primaries.begin(), environment.primaries.end());
   for (optics::Spectrum& primary : light.primaries)
     for (double& value : primary) value /= flux.power;
   return light;

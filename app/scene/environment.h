@@ -3,7 +3,7 @@
 // from every texel, in proportion to the texel's flux.
 //
 // A texel has one colour all over it, and the colour stands for the same spectrum as where it is seen: r, g and b times
-// the fixed spectra of the three sRGB primaries (optics/colour.h), times Environment::radiance. So a white diffuse
+// the spectra of the three sRGB primaries (optics/colour.h), times Environment::radiance. So a white diffuse
 // surface has the colour that the map gives it by its irradiance, and what is seen through glass and what falls through
 // glass are one light.
 #pragma once
@@ -11,6 +11,7 @@
 #include "optics/colour.h"
 #include "preset/preset.h"
 
+#include <array>
 #include <cstddef>
 
 namespace nephroid::scene {
@@ -23,6 +24,7 @@ struct Environment {
   std::vector<float> rgb; ///< linear sRGB, finite, not negative, 3 a texel
   double radiance = 1;    ///< Y in W m^-2 sr^-1 of the colour (1, 1, 1)
   double rotate_deg = 0;
+  std::array<optics::Spectrum, 3> primaries = optics::primary_spectra(); ///< of the colours red, green and blue
   bool lights = false;    ///< whether it is a light too; never where it is black
   std::string about = {}; ///< of a sky: where its sun is and the irradiances, for a plan
 
@@ -37,7 +39,7 @@ struct Environment {
 /// thousandth of all light in sum become 0. Appends to warnings where there are such, where the picture's shape is
 /// not 2 : 1, and what the file says and is not obeyed.
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Location& where,
-                             std::vector<std::string>& warnings);
+                             std::vector<std::string>& warnings, optics::Band band = optics::Band::visible);
 
 /// What photons are drawn by: (r + g + b) / 3 of a texel, before Environment::radiance.
 double grey(const Environment& environment, std::size_t texel);

@@ -3,10 +3,12 @@
 // objects.
 #include "scene/scene.h"
 
+#include "scatter/spectra.h"
 #include "scene/heights.h"
 #include "scene/move.h"
 #include "scene/object_mesh.h"
 #include "scene/placement.h"
+#include "scene/sky.h"
 #include "scene/states.h"
 
 #include <fmt/format.h>
@@ -149,16 +151,60 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p) {
   return result;
 }
 
+namespace {
+
+FileFinder finder_of(const preset::Preset& preset) {
+  return FileFinder(std::filesystem::path(preset.source).parent_path());
+}
+
+void add_materials(const preset::Preset& preset, const FileFinder& finder, Scene& scene) {
+  const Location where = Location(preset.source) / "scene" / "materials";
+  for (const auto& [name, material] : preset.scene.materials)
+    scene.materials.push_back(scatter::make_material(name, material, finder, where / name, scene.warnings, scene.band));
+}
+
+/// The environment is one of them. The objects stand.
+void add_lights(const preset::Preset& preset, const FileFinder& finder, Scene& scene) {
+  const Location where = Location(preset.source) / "scene";
+  for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
+    add_light(preset.scene.lights[i], finder, where / "lights" / i, scene);
+  if (const auto& environment = preset.scene.environment) {
+    if (std::optional<Light> sun = make_sun(*environment, scene.band)) scene.lights.push_back(std::move(*sun));
+    scene.environment = make_environment(*environment, finder, where / "environment", scene.warnings, scene.band);
+    if (scene.environment->lights) scene.lights.push_back(make_environment_light(*scene.environment));
+  }
+  warn_of_faint_lights(scene);
+}
+
+} // namespace
+
+bool reaches_beyond_visible(const preset::Preset& preset) {
+  const auto& environment = preset.scene.environment;
+  return (environment && environment->type == preset::Environment::Type::sky && !is_night(*environment)) ||
+         std::ranges::any_of(preset.scene.lights,
+                             [](const preset::Light& light) { return scatter::reaches_beyond(light.spectrum); });
+}
+
+Scene in_band(const Scene& scene, const preset::Preset& preset, optics::Band band) {
+  Scene made = scene;
+  made.band = band;
+  made.materials.clear();
+  made.lights.clear();
+  made.environment.reset();
+  made.warnings.clear();
+  const FileFinder finder = finder_of(preset);
+  add_materials(preset, finder, made);
+  add_lights(preset, finder, made);
+  return made;
+}
+
 Scene load_scene(const preset::Preset& preset, const Watch& watch) {
-  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
+  const FileFinder finder = finder_of(preset);
   const Location where = Location(preset.source) / "scene";
   Scene scene;
   scene.source = preset.source;
   scene.metres_per_unit = preset::metres(preset.unit);
-  for (const auto& [name, material] : preset.scene.materials)
-    scene.materials.push_back(
-        scatter::make_material(name, material, finder, where / "materials" / name, scene.warnings));
-
+  add_materials(preset, finder, scene);
   check_names(preset.scene.objects, where / "objects");
   // Each file is read once, however many objects name it and however large it is.
   std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes;
@@ -201,14 +247,7 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch) {
                                            label_of(preset.scene.objects[i], i),
                                            label_of(preset.scene.objects[first[i]], first[i])));
   part_touching(scene, first);
-  for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
-    add_light(preset.scene.lights[i], finder, where / "lights" / i, scene);
-  if (preset.scene.environment) {
-    if (std::optional<Light> sun = make_sun(*preset.scene.environment)) scene.lights.push_back(std::move(*sun));
-    scene.environment = make_environment(*preset.scene.environment, finder, where / "environment", scene.warnings);
-    if (scene.environment->lights) scene.lights.push_back(make_environment_light(*scene.environment));
-  }
-  warn_of_faint_lights(scene);
+  add_lights(preset, finder, scene);
   scene.camera = make_camera(preset.scene.camera, scene);
   return scene;
 }

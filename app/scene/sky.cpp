@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "optics/tables.h"
+#include "scene/clear_sky.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -110,6 +111,11 @@ SunPlace place_of(const preset::Environment& sky) {
   return {std::asin(std::clamp(to.y, -1.0, 1.0)) / degree, std::atan2(to.x, -to.z) / degree};
 }
 
+/// 1..366. date: checked.
+int day_of_year(const std::string& date) {
+  return preset::days_since_2000(date).value() - preset::days_since_2000(date.substr(0, 4) + "-01-01").value() + 1;
+}
+
 /// Adds to each of `sum` a factor times `by`.
 void add(Colour& sum, double factor, const Colour& by) {
   for (std::size_t c = 0; c < 3; ++c) sum[c] += factor * by[c];
@@ -126,6 +132,40 @@ double watts_of(const Colour& rgb) {
 }
 
 double sum_of(const optics::Spectrum& spectrum) { return std::accumulate(spectrum.begin(), spectrum.end(), 0.0); }
+
+ClearSky clear_sky_of(const preset::Environment& sky, double elevation_deg, optics::Band band) {
+  const double distance = sky.place ? distance_factor(day_of_year(sky.place->date)) : 1;
+  return clear_sky(elevation_deg, air_of(sky.turbidity), sky.albedo, distance, band);
+}
+
+/// Gives a sky whose upper half is the visible one's colours the light of Bird and Riordan's: its luminances, grey, so
+/// that a level plane has 1 W/m^2 of them, times one spectrum. Its lower half is the ground.
+void as_clear_sky(Environment& map, const preset::Environment& sky, double elevation_deg, double sine,
+                  optics::Band band) {
+  const ClearSky light = clear_sky_of(sky, elevation_deg, band);
+  const double direct = sky.sun_scale * sum_of(light.direct), diffuse = sum_of(light.diffuse);
+  const std::size_t texels = map.rgb.size() / 3, horizon = texels / 2;
+  double level = 0;
+  for (std::size_t i = 0; i < horizon; ++i) {
+    const int row = static_cast<int>(i) / map.width;
+    const double sine_of_row = std::sin(degree * (90 - 180 * (row + 0.5) / map.height));
+    const float luminance =
+        static_cast<float>(optics::linear_srgb_to_xyz({map.rgb[3 * i], map.rgb[3 * i + 1], map.rgb[3 * i + 2]})[1]);
+    for (std::size_t c = 0; c < 3; ++c) map.rgb[3 * i + c] = luminance;
+    level += luminance * sine_of_row * texel_steradians(map, row);
+  }
+  // The ground is grey of one albedo; it has the sky's spectrum here, not the sun's.
+  const double on_ground = 1 + (sky.radiance > 0 ? direct * sine / (diffuse * sky.radiance) : 0);
+  for (std::size_t i = 0; i < texels; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      map.rgb[3 * i + c] = i < horizon ? static_cast<float>(map.rgb[3 * i + c] / level)
+                                       : static_cast<float>(sky.albedo / pi * on_ground);
+  for (optics::Spectrum& primary : map.primaries)
+    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] = light.diffuse[w] / 3;
+  map.about = fmt::format("sun and sky by Bird and Riordan (1986): the sun, {:.2f} degrees high, gives a plane that "
+                          "faces it {:.1f} W/m^2 of {}, the sky a level one {:.1f}",
+                          elevation_deg, direct, text_of(band), sky.radiance * diffuse);
+}
 
 } // namespace
 
@@ -181,7 +221,7 @@ bool is_night(const preset::Environment& environment) {
   return environment.type == preset::Environment::Type::sky && !(place_of(environment).elevation_deg > 0);
 }
 
-Environment make_sky(const preset::Environment& sky) {
+Environment make_sky(const preset::Environment& sky, optics::Band band) {
   const SunPlace place = place_of(sky);
   const glm::dvec3 to_sun = to_sky(place);
   Environment result;
@@ -205,6 +245,10 @@ Environment make_sky(const preset::Environment& sky) {
         result.rgb[3 * static_cast<std::size_t>(row * sky_width + column) + c] = static_cast<float>(rgb[c]);
     }
   }
+  if (band != optics::Band::visible) {
+    as_clear_sky(result, sky, place.elevation_deg, to_sun.y, band);
+    return result;
+  }
   const optics::Spectrum sun = sun_irradiance(place.elevation_deg, sky.turbidity);
   result.about = fmt::format("the sun is {:.2f} degrees high at azimuth {:.2f} and gives a plane that faces it {:.1f} "
                              "W/m^2 of 380 to 780 nm; the sky gives the ground {:.1f}",
@@ -219,13 +263,14 @@ Environment make_sky(const preset::Environment& sky) {
   return result;
 }
 
-std::optional<Light> make_sun(const preset::Environment& sky) {
+std::optional<Light> make_sun(const preset::Environment& sky, optics::Band band) {
   if (sky.type != preset::Environment::Type::sky || sky.sun_scale == 0 || is_night(sky)) return std::nullopt;
   const SunPlace place = place_of(sky);
   Light sun;
   sun.type = preset::Light::Type::directional;
   sun.direction = rotation({0, sky.rotate_deg, 0}) * -to_sky(place);
-  sun.spectrum = sun_irradiance(place.elevation_deg, sky.turbidity);
+  sun.spectrum = band == optics::Band::visible ? sun_irradiance(place.elevation_deg, sky.turbidity)
+                                               : clear_sky_of(sky, place.elevation_deg, band).direct;
   const double watts = sum_of(sun.spectrum);
   for (double& value : sun.spectrum) value /= watts;
   sun.irradiance_w_m2 = sky.sun_scale * watts;

@@ -217,12 +217,16 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
   tables.reflector_count = static_cast<int>(tables.reflectance.size() / wavelength_count);
   add_cluster_rows(scene, clusters, lit, tables);
   add_wavelength_rows(scene, tables);
-  const optics::ColourMatching& eye = scene.camera.meter ? optics::power_and_luminance() : optics::cie_1931();
+  const optics::ColourMatching& eye = response_of(scene);
   add_light_rows(eye, lights, tables);
   add_cluster_cdf(lights, tables);
   for (const scene::Light* light : lights) add_wavelength_cdf(eye, {light}, tables);
   add_wavelength_cdf(eye, lights, tables);
   return tables;
+}
+
+const optics::ColourMatching& response_of(const scene::Scene& scene) {
+  return scene.camera.meter ? optics::power_and_luminance(scene.band) : optics::cie_1931();
 }
 
 StretchParameter stretch_parameter(const scene::Scene& scene) {

@@ -30,6 +30,9 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
                                         const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
                                         std::vector<shared::DeviceMaterial>& materials);
 
+/// What the film adds up of each wavelength: what the eye makes of it, or a meter.
+const optics::ColourMatching& response_of(const scene::Scene& scene);
+
 /// The parameter s along which spectral differentials stretch a splat. It depends on wavelength alone
 /// (kernels/transport/differential.h has the derivatives, kernels/photons/stretch.h the splats).
 ///

@@ -59,7 +59,7 @@ static inline ThinFilm coating_at(const World* world, const DeviceMaterial* mate
 #if NEPHROID_COATINGS
   if (material->surface_first >= 0) {
     film.n = world->tables.surface_data[material->surface_first + wavelength];
-    film.thickness = material->coating_nm / (float)(380 + wavelength);
+    film.thickness = world->tables.surface_data[material->surface_first + WAVELENGTH_COUNT + wavelength];
   }
 #endif
   return film;

@@ -64,8 +64,8 @@ typedef struct {
                        // blue rows follow
   int attenuator;      // absorbing dielectric, mirror: row of the attenuation table; -1: none
   int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none, or a texture
-  int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none
-  float coating_nm;    // dielectric: thickness of its coating
+  int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none. A
+                       // coating has its 401 indices there, then its thickness in each wavelength
   int is_thin;         // dielectric: a pane without thickness
   float alpha;         // of GGX (scatter/microfacet.h); 0: polished
   int texture;         // of its reflectance or tint: number of a texture (scatter/texture.h); -1: none
@@ -187,7 +187,7 @@ typedef struct {
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceMaterial) == 48 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
+static_assert(sizeof(DeviceMaterial) == 44 && sizeof(DeviceObject) == 12 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 52 + sizeof(DeviceTables));
 static_assert(sizeof(DeviceBackground) == 16);
