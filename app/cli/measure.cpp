@@ -4,6 +4,8 @@
 #include "base/files.h"
 #include "base/interrupts.h"
 #include "base/json_output.h"
+#include "cli/intervals.h"
+#include "cli/measure_hours.h"
 #include "cli/progress.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
@@ -40,20 +42,13 @@ struct MeasureOptions {
   std::vector<std::string> overrides;
   std::optional<double> seconds, until_percent;
   std::optional<std::uint64_t> seed;
+  std::string hours;
+  int every = 7;
   compute::DeviceOptions device;
   bool json = false;
 };
 
 const char* unit_of(Quantity quantity) { return quantity == Quantity::irradiance ? "W/m^2" : "lx"; }
-
-/// "512.31 +- 0.2 %"; with both ends where they are not alike.
-std::string text_of(const Interval& interval) {
-  const double up = interval.high - interval.value, down = interval.value - interval.low, value = interval.value;
-  if (!(interval.half() > 0)) return fmt::format("{:.5g}", value);
-  if (value > 0 && std::abs(up - down) <= 0.2 * std::max(up, down))
-    return fmt::format("{:.5g} +- {:.2g} %", value, 100 * interval.half() / value);
-  return fmt::format("{:.4g} ({:.4g} to {:.4g})", value, interval.low, interval.high);
-}
 
 std::string percent_of(const Interval& share) {
   if (share.high - share.low < 5e-4) return fmt::format("{:.1f} %", 100 * share.value);
@@ -97,16 +92,12 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::
                meter.plan.settings.max_surfaces);
 }
 
-Json to_json(const Interval& interval) {
-  return {{"value", interval.value}, {"low", interval.low}, {"high", interval.high}};
-}
-
 Json to_json(const Numbers& numbers, const char* total) {
-  return {{"mean", to_json(numbers.mean)},
-          {total, to_json(numbers.total)},
-          {"peak", to_json(numbers.peak)},
-          {"least", to_json(numbers.least)},
-          {"uniformity", to_json(numbers.uniformity)}};
+  return {{"mean", json_of(numbers.mean)},
+          {total, json_of(numbers.total)},
+          {"peak", json_of(numbers.peak)},
+          {"least", json_of(numbers.least)},
+          {"uniformity", json_of(numbers.uniformity)}};
 }
 
 Json to_json(const MeterInHand& meter) {
@@ -120,7 +111,7 @@ Json to_json(const MeterInHand& meter) {
       meter.surface.centres[reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell] + meter.origin;
   object["peak_at"] = {p.x, p.y, p.z};
   if (reading.share_above)
-    object["above"] = {{"threshold", *meter.meter.threshold}, {"share", to_json(*reading.share_above)}};
+    object["above"] = {{"threshold", *meter.meter.threshold}, {"share", json_of(*reading.share_above)}};
   return object;
 }
 
@@ -182,6 +173,10 @@ void measure(const MeasureOptions& options) {
   preset::at_origins(preset, [&] {
     run::DeviceOnDemand device(device_opener(options.device));
     const run::Prepared prepared = run::prepare(preset);
+    const HoursOptions series{options.hours,   options.meter,         options.folder, options.every,
+                              options.seconds, options.until_percent, options.json};
+    if (!options.hours.empty())
+      return measure_hours(series, prepared, {device.context(), Communicator(nullptr)}, interrupts.token());
     run::Metering metering(prepared, {device.context(), Communicator(nullptr)}, options.meter);
     for (const std::string& note : metering.notes()) fmt::print(stderr, "note: {}\n", note);
     if (!options.folder.empty()) fs::create_directories(options.folder);
@@ -198,7 +193,8 @@ void add_measure(CLI::App& program, Session&) {
   const auto options = std::make_shared<MeasureOptions>();
   Verb verb(program, "measure", "Irradiance and illuminance on the meters of a preset, with 95 % intervals",
             {{"nephroid measure measuring/concave-facade --seconds 2", "a table"},
-             {"nephroid measure measuring/concave-facade --until 20 -o out/facade", "to 20 %, and as files"}},
+             {"nephroid measure measuring/concave-facade --until 20 -o out/facade", "to 20 %, and as files"},
+             {"nephroid measure measuring/concave-facade --hours day --until 50", "hour by hour"}},
             "Files: for each meter NAME.csv (a row a cell), NAME.exr (a channel a quantity) and NAME.png (false "
             "colours); measure.json.");
   verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
@@ -217,6 +213,16 @@ void add_measure(CLI::App& program, Session&) {
        .says = "Stop after this much work, whatever the intervals (default: 60 for each meter, or none with --until)",
        .from = 0.001,
        .to = 1e9});
+  verb.option("--hours", options->hours,
+              {.type = "WHICH",
+               .says = "Measure each hour of light: day: of the sky's date; year: of its year; FILE.epw: of a weather "
+                       "file. Then --until is 5 unless said, and --seconds, for each hour and meter, 10"});
+  verb.option("--every", options->every,
+              {.type = "DAYS",
+               .says = "Of a year or weather, each hour of every so many days (default 7)",
+               .from = 1,
+               .to = 365,
+               .needs = "--hours"});
   verb.option("--seed", options->seed,
               {.type = "N", .says = "Of the random numbers, instead of the preset's", .from = 0});
   verb.device(options->device.selector, options->device.kernels);

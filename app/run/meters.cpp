@@ -19,9 +19,11 @@ namespace {
 /// The scene with all of its light, also beyond the visible, and with its environment as a light where the engine
 /// always takes it for one.
 scene::Scene lit_scene(const Prepared& prepared) {
-  scene::Scene scene = scene::reaches_beyond_visible(prepared.preset)
-                           ? scene::in_band(prepared.loaded->scene, prepared.preset, optics::Band::solar)
-                           : prepared.loaded->scene;
+  const preset::Preset& preset = prepared.preset;
+  const optics::Band band = scene::reaches_beyond_visible(preset) ? optics::Band::solar : optics::Band::visible;
+  const bool is_sky = preset.scene.environment && preset.scene.environment->type == preset::Environment::Type::sky;
+  scene::Scene scene = is_sky || band != optics::Band::visible ? scene::in_band(prepared.loaded->scene, preset, band)
+                                                               : prepared.loaded->scene;
   const bool decides = std::any_cast<photons::Settings>(&prepared.preset.settings.value()) != nullptr;
   if (decides || !scene.environment || scene.environment->lights || scene.environment->is_black()) return scene;
   scene.environment->lights = true;

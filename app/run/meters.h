@@ -25,8 +25,9 @@ struct MeterInHand {
 
 class Metering {
 public:
-  /// Measures the meter of that name, or all where it is empty. Throws bad_input: the preset has none, or none of that
-  /// name, its engine has no scene, as scene::make_meter and photons::plan_meter; failed where memory lacks.
+  /// Measures the meter of that name, or all where it is empty, in the light of the preset: its sky may be another one
+  /// than the loaded scene's. Throws bad_input: the preset has none, or none of that name, its engine has no scene, as
+  /// scene::make_meter and photons::plan_meter; failed where memory lacks.
   Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only = {});
 
   /// Does a slice of about 30 ms of one of the meters, which take turns of a cycle. True where it has made a reading

@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "optics/tables.h"
-#include "scene/clear_sky.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -133,16 +132,11 @@ double watts_of(const Colour& rgb) {
 
 double sum_of(const optics::Spectrum& spectrum) { return std::accumulate(spectrum.begin(), spectrum.end(), 0.0); }
 
-ClearSky clear_sky_of(const preset::Environment& sky, double elevation_deg, optics::Band band) {
-  const double distance = sky.place ? distance_factor(day_of_year(sky.place->date)) : 1;
-  return clear_sky(elevation_deg, air_of(sky.turbidity), sky.albedo, distance, band);
-}
-
 /// Gives a sky whose upper half is the visible one's colours the light of Bird and Riordan's: its luminances, grey, so
 /// that a level plane has 1 W/m^2 of them, times one spectrum. Its lower half is the ground.
 void as_clear_sky(Environment& map, const preset::Environment& sky, double elevation_deg, double sine,
                   optics::Band band) {
-  const ClearSky light = clear_sky_of(sky, elevation_deg, band);
+  const ClearSky light = clear_sky_of(sky, band);
   const double direct = sky.sun_scale * sum_of(light.direct), diffuse = sum_of(light.diffuse);
   const std::size_t texels = map.rgb.size() / 3, horizon = texels / 2;
   double level = 0;
@@ -217,6 +211,11 @@ optics::Colour sky_xyy(double zenith_deg, double from_sun_deg, double sun_zenith
           kcd * 1000 / 683 * over_zenith(luminance_terms, t, zenith, from_sun, s)};
 }
 
+ClearSky clear_sky_of(const preset::Environment& sky, optics::Band band) {
+  const double distance = sky.place ? distance_factor(day_of_year(sky.place->date)) : 1;
+  return clear_sky(place_of(sky).elevation_deg, air_of(sky.turbidity), sky.albedo, distance, band);
+}
+
 bool is_night(const preset::Environment& environment) {
   return environment.type == preset::Environment::Type::sky && !(place_of(environment).elevation_deg > 0);
 }
@@ -270,7 +269,7 @@ std::optional<Light> make_sun(const preset::Environment& sky, optics::Band band)
   sun.type = preset::Light::Type::directional;
   sun.direction = rotation({0, sky.rotate_deg, 0}) * -to_sky(place);
   sun.spectrum = band == optics::Band::visible ? sun_irradiance(place.elevation_deg, sky.turbidity)
-                                               : clear_sky_of(sky, place.elevation_deg, band).direct;
+                                               : clear_sky_of(sky, band).direct;
   const double watts = sum_of(sun.spectrum);
   for (double& value : sun.spectrum) value /= watts;
   sun.irradiance_w_m2 = sky.sun_scale * watts;

@@ -6,6 +6,7 @@
 //
 // y is up, north is -z, east is +x.
 #pragma once
+#include "scene/clear_sky.h"
 #include "scene/environment.h"
 
 #include <glm/glm.hpp>
@@ -40,6 +41,9 @@ optics::Colour sky_xyy(double zenith_deg, double from_sun_deg, double sun_zenith
 /// horizon are the ground, lit by sky and sun. Black at night. In the solar band its light is Bird and Riordan's
 /// (clear_sky.h), grey, and spread over the sky as the luminance of the visible one is.
 Environment make_sky(const preset::Environment& environment, optics::Band band = optics::Band::visible);
+
+/// What a clear sky, with its sun by day, gives before radiance and sun_scale.
+ClearSky clear_sky_of(const preset::Environment& sky, optics::Band band);
 
 /// Whether it is a sky whose sun is below the horizon.
 bool is_night(const preset::Environment& environment);

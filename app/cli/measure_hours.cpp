@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/measure_hours.h"
+
+#include "base/counted.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/json_output.h"
+#include "cli/intervals.h"
+#include "cli/progress.h"
+#include "image/image.h"
+#include "meters/map.h"
+#include "preset/choices.h"
+#include "run/hours.h"
+#include "run/meters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace nephroid::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using meters::Interval;
+using meters::Reading;
+using run::Hour;
+using run::MeterInHand;
+namespace fs = std::filesystem;
+
+/// What a meter shows in an hour, in the quantity of its unit.
+struct Line {
+  Hour hour;
+  scene::SunPlace sun;
+  Interval mean, peak; ///< W/m^2 or lx
+  glm::dvec3 place{0}; ///< of the peak, as the preset counts
+};
+
+/// The hours in which the peak is above the threshold, of the time that the series is of. value: those whose peak is
+/// more likely above than below; low, high: those in which it surely is, and may be.
+Interval hours_above(const std::vector<Line>& lines, double threshold, double weight_h) {
+  Interval hours;
+  for (const Line& line : lines) {
+    hours.value += line.peak.value > threshold ? weight_h : 0;
+    hours.low += line.peak.low > threshold ? weight_h : 0;
+    hours.high += line.peak.high > threshold ? weight_h : 0;
+  }
+  return hours;
+}
+
+/// What the cells of a meter have in all, and how often.
+struct CellSums {
+  std::vector<double> light, square_half, hours_above; ///< [cell]; W h/m^2 or lx h, the square of its interval's half
+
+  void add(const std::vector<Interval>& cells, double weight_h, std::optional<double> threshold) {
+    light.resize(cells.size()), square_half.resize(cells.size()), hours_above.resize(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      light[i] += weight_h * cells[i].value;
+      square_half[i] += std::pow(weight_h * cells[i].half(), 2);
+      if (threshold && cells[i].value > *threshold) hours_above[i] += weight_h;
+    }
+  }
+};
+
+/// A meter over all hours.
+struct Series {
+  preset::Meter meter;
+  std::vector<Line> lines;
+  CellSums sums;
+  std::optional<double> threshold; ///< W/m^2 or lx; nothing where it is of the other quantity than the unit
+  std::optional<Reading> highest;  ///< of the hour with the highest peak; nothing: none has light
+  scene::MeterSurface surface;     ///< of all hours
+  glm::dvec3 origin{0};            ///< preset coordinates of the scene's (0, 0, 0)
+
+  explicit Series(const preset::Meter& of) : meter(of) {
+    if (!of.threshold) return;
+    const preset::Quantity limit = preset::quantity_in(*of.threshold).value();
+    if (preset::is_luminous(limit.unit) == preset::is_luminous(of.unit))
+      threshold = limit.value * preset::size_of(limit.unit);
+  }
+  /// The line of the highest peak. There is one.
+  const Line& top() const {
+    return *std::ranges::max_element(lines, {}, [](const Line& line) { return line.peak.value; });
+  }
+};
+
+run::Hours hours_of(const HoursOptions& options, const preset::Preset& preset) {
+  const auto& sky = preset.scene.environment;
+  if (!sky || sky->type != preset::Environment::Type::sky || !sky->place)
+    throw bad_input(Location(preset.source) / "scene" / "environment", "is no sky of a place, and has no hours",
+                    "expected a sky with \"place\"", "docs/sky.md has one");
+  if (options.which == "day") return run::hours_of_day(*sky->place);
+  if (options.which == "year") return run::hours_of_year(*sky->place, options.every);
+  if (!options.which.ends_with(".epw") && !options.which.ends_with(".EPW"))
+    throw bad_input("--hours", fmt::format("is {}", options.which), "expected day, year, or a weather file FILE.epw");
+  return run::hours_of_weather(scene::read_weather(options.which), *sky->place, options.every);
+}
+
+std::string clock(double hour) {
+  const int minutes = static_cast<int>(std::lround(60 * hour));
+  return fmt::format("{:02}:{:02}", minutes / 60, minutes % 60);
+}
+
+Line line_of(const MeterInHand& meter, const Hour& hour, const scene::SunPlace& sun) {
+  const meters::Numbers& numbers = meter.reading->all().numbers(meters::quantity_of(meter.meter.unit));
+  return {hour, sun, numbers.mean, numbers.peak, meter.surface.centres[numbers.peak_cell] + meter.origin};
+}
+
+void print_line(const Line& line, double unit, const char* before = "") {
+  fmt::print("{}  {} {}  sun {:4.1f}  mean {:>18}  peak {:>24} at ({:.4g}, {:.4g}, {:.4g})\n", before, line.hour.date,
+             clock(line.hour.hour), line.sun.elevation_deg, text_of(line.mean, unit), text_of(line.peak, unit),
+             line.place.x, line.place.y, line.place.z);
+}
+
+/// Each hour of a day, of longer times the highest one of each month.
+void print_text(const Series& series, const run::Hours& hours, optics::Band band) {
+  const double unit = preset::size_of(series.meter.unit);
+  fmt::print("{}: {}, {} with light; {} of {}\n", series.meter.name, hours.about, counted(series.lines.size(), "hour"),
+             preset::word(series.meter.unit), text_of(band));
+  if (series.lines.empty()) return;
+  std::map<std::string, const Line*> shown;
+  for (const Line& line : series.lines) {
+    const Line*& best =
+        shown[hours.weight_h == 1 && hours.hours.size() == 24 ? clock(line.hour.hour) : line.hour.date.substr(0, 7)];
+    if (!best || line.peak.value > best->peak.value) best = &line;
+  }
+  for (const auto& [key, line] : shown) print_line(*line, unit);
+  print_line(series.top(), unit, "  highest:");
+  if (series.threshold) {
+    const Interval above = hours_above(series.lines, *series.threshold, hours.weight_h);
+    fmt::print("  above {}: {:.0f} h ({:.0f} to {:.0f})\n", *series.meter.threshold, above.value, above.low,
+               above.high);
+  } else if (series.meter.threshold)
+    fmt::print("  above {}: not counted, for the meter's unit is {}\n", *series.meter.threshold,
+               preset::word(series.meter.unit));
+}
+
+Json to_json(const Line& line) {
+  return {{"date", line.hour.date},
+          {"hour", line.hour.hour},
+          {"sun_elevation_deg", line.sun.elevation_deg},
+          {"sun_azimuth_deg", line.sun.azimuth_deg},
+          {"mean", json_of(line.mean)},
+          {"peak", json_of(line.peak)},
+          {"peak_at", {line.place.x, line.place.y, line.place.z}}};
+}
+
+Json to_json(const Series& series, const run::Hours& hours) {
+  Json object{{"name", series.meter.name},
+              {"quantity", preset::is_luminous(series.meter.unit) ? "lx" : "W/m^2"},
+              {"hours", Json::array()}};
+  for (const Line& line : series.lines) object["hours"].push_back(to_json(line));
+  if (!series.lines.empty()) object["highest"] = to_json(series.top());
+  if (series.threshold)
+    object["hours_above"] = {{"threshold", *series.meter.threshold},
+                             {"hours", json_of(hours_above(series.lines, *series.threshold, hours.weight_h))}};
+  return object;
+}
+
+std::string cells_csv(const Series& series) {
+  const bool is_luminous = preset::is_luminous(series.meter.unit);
+  std::string text = fmt::format("cell,x,y,z,{0},{0}_half,hours_above\n", is_luminous ? "lx_h" : "W_h_m-2");
+  for (std::size_t i = 0; i < series.sums.light.size(); ++i) {
+    const glm::dvec3 p = series.surface.centres[i] + series.origin;
+    text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:g}\n", i, p.x, p.y, p.z, series.sums.light[i],
+                        std::sqrt(series.sums.square_half[i]), series.sums.hours_above[i]);
+  }
+  return text;
+}
+
+std::string hours_csv(const Series& series) {
+  std::string text = "date,hour,sun_elevation_deg,sun_azimuth_deg,mean,mean_half,peak,peak_low,peak_high,x,y,z\n";
+  for (const Line& l : series.lines)
+    text += fmt::format("{},{:g},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", l.hour.date,
+                        l.hour.hour, l.sun.elevation_deg, l.sun.azimuth_deg, l.mean.value, l.mean.half(), l.peak.value,
+                        l.peak.low, l.peak.high, l.place.x, l.place.y, l.place.z);
+  return text;
+}
+
+void report(const HoursOptions& options, const run::Hours& hours, const std::vector<Series>& all, optics::Band band,
+            const std::string& preset) {
+  Json object{{"preset", preset},       {"wavelengths", text_of(band)},   {"confidence", 0.95},
+              {"series", hours.about},  {"missing_hours", hours.missing}, {"hours_each", hours.weight_h},
+              {"meters", Json::array()}};
+  for (const Series& series : all) {
+    object["meters"].push_back(to_json(series, hours));
+    if (!options.json) print_text(series, hours, band);
+    if (options.folder.empty() || !series.highest) continue;
+    const std::string stem = preset::file_stem(series.meter);
+    write_file_whole(options.folder / (stem + "-hours.csv"), hours_csv(series));
+    write_file_whole(options.folder / (stem + "-cells.csv"), cells_csv(series));
+    const measure::Bitmap map = meters::false_colours(series.meter, series.surface, *series.highest);
+    image::write_png_bytes(options.folder / (stem + "-highest.png"), map.width, map.height, map.rgba);
+  }
+  if (options.json) fmt::print("{}\n", json_text(object));
+  if (!options.folder.empty()) write_file_whole(options.folder / "hours.json", object.dump(2) + "\n");
+}
+
+/// To the same interval in every hour, whatever the meters ask for when they are measured once. False: interrupted.
+bool measure_hour(const HoursOptions& options, run::Metering& metering, const std::stop_token& interrupted) {
+  constexpr double usual_percent = 5, usual_seconds = 10;
+  const double percent = options.until_percent.value_or(usual_percent),
+               seconds = options.seconds.value_or(usual_seconds) * static_cast<double>(metering.meters().size());
+  while (!interrupted.stop_requested()) {
+    metering.advance();
+    if (!std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading.has_value(); })) continue;
+    const bool is_enough = std::ranges::all_of(
+        metering.meters(), [&](const MeterInHand& m) { return m.relative_half_width() <= percent / 100; });
+    if (is_enough || metering.work_seconds() >= seconds) return true;
+  }
+  return false;
+}
+
+} // namespace
+
+void measure_hours(const HoursOptions& options, const run::Prepared& prepared, const mpi::RankContext& context,
+                   const std::stop_token& interrupted) {
+  const run::Hours hours = hours_of(options, prepared.preset);
+  if (hours.missing > 0)
+    fmt::print(stderr, "note: {} of the weather file have no data and are left out\n", counted(hours.missing, "hour"));
+  if (!options.folder.empty()) fs::create_directories(options.folder);
+  std::vector<Series> all;
+  for (const preset::Meter& meter : prepared.preset.scene.meters)
+    if (options.meter.empty() || meter.name == options.meter) all.emplace_back(meter);
+  optics::Band band = optics::Band::solar;
+  LiveLine live;
+  const bool shows = progress_style(options.json) == ProgressStyle::live;
+  for (std::size_t i = 0; i < hours.hours.size() && !interrupted.stop_requested(); ++i) {
+    const Hour& hour = hours.hours[i];
+    run::Prepared now = prepared;
+    now.preset.scene.environment = run::sky_of(*prepared.preset.scene.environment, hours.place, hour);
+    now.preset.seed += i; // so that errors of the hours are independent
+    const preset::Environment& sky = *now.preset.scene.environment;
+    if (run::is_dark(sky) && now.preset.scene.lights.empty()) continue; // nothing to measure
+    run::Metering metering(now, context, options.meter);
+    if (!measure_hour(options, metering, interrupted)) break;
+    if (!run::is_dark(sky)) band = metering.band();
+    for (std::size_t m = 0; m < metering.meters().size(); ++m) {
+      const MeterInHand& meter = metering.meters()[m];
+      Series& series = all[m];
+      const bool is_highest = series.lines.empty() || line_of(meter, hour, {}).peak.value > series.top().peak.value;
+      series.lines.push_back(line_of(meter, hour, scene::sun_place(*sky.place)));
+      series.sums.add(meter.reading->all().cells[static_cast<std::size_t>(meters::quantity_of(meter.meter.unit))],
+                      hours.weight_h, series.threshold);
+      if (is_highest) series.highest = meter.reading;
+      series.surface = meter.surface, series.origin = meter.origin;
+      if (shows)
+        live.show(fmt::format("{} {}: {} {}", hour.date, clock(hour.hour), series.meter.name,
+                              text_of(series.lines.back().peak, preset::size_of(series.meter.unit))));
+    }
+  }
+  live.clear();
+  report(options, hours, all, band, prepared.preset.name);
+  if (interrupted.stop_requested())
+    throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted: the numbers are of the hours until then");
+}
+
+} // namespace nephroid::cli

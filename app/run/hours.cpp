@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/hours.h"
+
+#include "scene/clear_sky.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <numeric>
+
+namespace nephroid::run {
+namespace {
+
+using std::chrono::days;
+using std::chrono::sys_days;
+
+constexpr sys_days first_day{std::chrono::year{2000} / 1 / 1};
+
+/// Of the days from 2000-01-01.
+std::string date_of(int day) {
+  const std::chrono::year_month_day date(first_day + days(day));
+  return fmt::format("{:04}-{:02}-{:02}", int(date.year()), unsigned(date.month()), unsigned(date.day()));
+}
+
+void add_day(Hours& hours, const std::string& date) {
+  for (int hour = 0; hour < 24; ++hour) hours.hours.push_back({date, static_cast<double>(hour), {}, {}});
+}
+
+std::string every_day(int every) { return every == 1 ? "each day" : fmt::format("every {}th day", every); }
+
+std::string year_of(const preset::PlaceAndTime& place) { return place.date.substr(0, 4); }
+
+double sum_of(const optics::Spectrum& spectrum) { return std::accumulate(spectrum.begin(), spectrum.end(), 0.0); }
+
+} // namespace
+
+Hours hours_of_day(const preset::PlaceAndTime& place) {
+  Hours hours{.about = place.date, .place = place};
+  add_day(hours, place.date);
+  return hours;
+}
+
+Hours hours_of_year(const preset::PlaceAndTime& place, int every) {
+  const std::string year = year_of(place);
+  Hours hours{.about = every_day(every) + " of " + year, .place = place, .weight_h = static_cast<double>(every)};
+  const int first = preset::days_since_2000(year + "-01-01").value(),
+            last = preset::days_since_2000(year + "-12-31").value();
+  for (int day = first; day <= last; day += every) add_day(hours, date_of(day));
+  return hours;
+}
+
+Hours hours_of_weather(const scene::Weather& weather, const preset::PlaceAndTime& place, int every) {
+  Hours hours{.about = every_day(every) + " of the weather of " + weather.place,
+              .place = {.latitude_deg = weather.latitude_deg,
+                        .longitude_deg = weather.longitude_deg,
+                        .date = place.date,
+                        .utc_offset_h = weather.utc_offset_h},
+              .weight_h = static_cast<double>(every)};
+  for (std::size_t i = 0; i < weather.hours.size(); ++i) {
+    const scene::WeatherHour& hour = weather.hours[i];
+    if (i / 24 % static_cast<std::size_t>(every) != 0) continue;
+    const std::string date = fmt::format("{}-{:02}-{:02}", year_of(place), hour.month, hour.day);
+    if (!preset::days_since_2000(date)) continue; // 29 February, where the preset's year has none
+    if (hour.direct_w && hour.diffuse_w)
+      hours.hours.push_back({date, hour.hour, hour.direct_w, hour.diffuse_w});
+    else
+      ++hours.missing;
+  }
+  return hours;
+}
+
+preset::Environment sky_of(const preset::Environment& sky, const preset::PlaceAndTime& place, const Hour& hour) {
+  preset::Environment made = sky;
+  made.place = place;
+  made.place->date = hour.date;
+  made.place->hour = hour.hour;
+  if (!hour.direct_w || scene::is_night(made)) return made;
+  const scene::ClearSky clear = scene::clear_sky_of(made, optics::Band::solar);
+  made.sun_scale = *hour.direct_w / sum_of(clear.direct);
+  made.radiance = *hour.diffuse_w / sum_of(clear.diffuse);
+  return made;
+}
+
+bool is_dark(const preset::Environment& sky) {
+  return scene::is_night(sky) || (sky.sun_scale == 0 && (sky.radiance == 0 || !sky.lights));
+}
+
+} // namespace nephroid::run
