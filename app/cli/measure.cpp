@@ -10,6 +10,7 @@
 #include "cli/run_target.h"
 #include "cli/verb.h"
 #include "image/image.h"
+#include "meters/luminaire.h"
 #include "meters/map.h"
 #include "preset/choices.h"
 #include "preset/origins.h"
@@ -48,7 +49,10 @@ struct MeasureOptions {
   bool json = false;
 };
 
-const char* unit_of(Quantity quantity) { return quantity == Quantity::irradiance ? "W/m^2" : "lx"; }
+const char* unit_of(const MeterInHand& meter, Quantity quantity) {
+  if (meter.surface.is_goniometer()) return quantity == Quantity::irradiance ? "W/sr" : "cd";
+  return quantity == Quantity::irradiance ? "W/m^2" : "lx";
+}
 
 std::string percent_of(const Interval& share) {
   if (share.high - share.low < 5e-4) return fmt::format("{:.1f} %", 100 * share.value);
@@ -56,7 +60,7 @@ std::string percent_of(const Interval& share) {
 }
 
 void print_numbers(const MeterInHand& meter, const Reading& reading, Quantity quantity) {
-  fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", unit_of(quantity), "mean", "peak", "least");
+  fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", unit_of(meter, quantity), "mean", "peak", "least");
   for (const LayerReading& layer : reading.layers) {
     const Numbers& n = layer.numbers(quantity);
     fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", layer.name, text_of(n.mean),
@@ -68,21 +72,26 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::
   const Reading& reading = *meter.reading;
   const Numbers &watts = reading.all().numbers(Quantity::irradiance),
                 &lux = reading.all().numbers(Quantity::illuminance);
-  fmt::print("{}: {}, {:.4g} m^2, light of {}; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"),
-             reading.area_m2, text_of(band), meter.seconds);
+  fmt::print("{}: {}, {:.4g} {}, light of {}; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"),
+             reading.area_m2, meter.surface.is_goniometer() ? "sr" : "m^2", text_of(band), meter.seconds);
   if (meter.photons > 0) fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.photons));
   fmt::print("\n");
   print_numbers(meter, reading, Quantity::irradiance);
   print_numbers(meter, reading, Quantity::illuminance);
   fmt::print("  total {} W, {} lm\n", text_of(watts.total), text_of(lux.total));
-  if (meter.surface.count() > 1) {
+  if (meter.surface.is_goniometer()) {
+    const scene::GammaC way =
+        scene::direction_of(meter.surface, reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell);
+    fmt::print("  peak at gamma {:.1f}, C {:.1f} degrees\n", way.gamma_deg, way.c_deg);
+  } else if (meter.surface.count() > 1) {
     const Numbers& shown = reading.all().numbers(meters::quantity_of(meter.meter.unit));
     const glm::dvec3 p = meter.surface.centres[shown.peak_cell] + meter.origin;
     fmt::print("  peak at ({:.4g}, {:.4g}, {:.4g}) {}; uniformity (least / mean) {}\n", p.x, p.y, p.z,
                preset::word(preset.unit), text_of(lux.uniformity));
   }
   if (reading.share_above)
-    fmt::print("  above {}: {} of the area\n", *meter.meter.threshold, percent_of(*reading.share_above));
+    fmt::print("  above {}: {} of the {}\n", *meter.meter.threshold, percent_of(*reading.share_above),
+               meter.surface.is_goniometer() ? "directions" : "area");
   if (!(reading.all().numbers(Quantity::irradiance).mean.value > 0))
     fmt::print("  no light was found: it is dark, or light is rare here and wants more time\n");
   if (const std::uint64_t refused = meter.run->refused(); refused > 0)
@@ -105,11 +114,16 @@ Json to_json(const MeterInHand& meter) {
   Json object{{"name", meter.meter.name}, {"cells", meter.surface.count()}, {"area_m2", reading.area_m2},
               {"seconds", meter.seconds}, {"photons", meter.photons},       {"lost_share", meter.run->lost_share()}};
   for (const LayerReading& layer : reading.layers)
-    object["layers"][layer.name] = {{"W/m^2", to_json(layer.numbers(Quantity::irradiance), "total_w")},
-                                    {"lx", to_json(layer.numbers(Quantity::illuminance), "total_lm")}};
-  const glm::dvec3 p =
-      meter.surface.centres[reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell] + meter.origin;
-  object["peak_at"] = {p.x, p.y, p.z};
+    object["layers"][layer.name] = {
+        {unit_of(meter, Quantity::irradiance), to_json(layer.numbers(Quantity::irradiance), "total_w")},
+        {unit_of(meter, Quantity::illuminance), to_json(layer.numbers(Quantity::illuminance), "total_lm")}};
+  const std::size_t peak = reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell;
+  const glm::dvec3 p = meter.surface.centres[peak] + meter.origin;
+  if (meter.surface.is_goniometer()) {
+    const scene::GammaC way = scene::direction_of(meter.surface, peak);
+    object["peak_at"] = {{"gamma_deg", way.gamma_deg}, {"c_deg", way.c_deg}};
+  } else
+    object["peak_at"] = {p.x, p.y, p.z};
   if (reading.share_above)
     object["above"] = {{"threshold", *meter.meter.threshold}, {"share", json_of(*reading.share_above)}};
   return object;
@@ -119,6 +133,10 @@ void write_files(const fs::path& folder, const MeterInHand& meter, double metres
   const std::string stem = preset::file_stem(meter.meter);
   const Reading& reading = *meter.reading;
   write_file_whole(folder / (stem + ".csv"), meters::csv(meter.surface, meter.origin, metres_per_unit, reading));
+  if (meter.surface.is_goniometer()) {
+    write_file_whole(folder / (stem + ".ies"), meters::ies(meter.meter, meter.surface, reading, stem));
+    write_file_whole(folder / (stem + ".ldt"), meters::eulumdat(meter.meter, meter.surface, reading, stem));
+  }
   image::write_exr(folder / (stem + ".exr"), meters::picture(meter.surface, metres_per_unit, reading));
   const measure::Bitmap map = meters::false_colours(meter.meter, meter.surface, reading);
   image::write_png_bytes(folder / (stem + ".png"), map.width, map.height, map.rgba);
@@ -196,7 +214,8 @@ void add_measure(CLI::App& program, Session&) {
              {"nephroid measure measuring/concave-facade --until 20 -o out/facade", "to 20 %, and as files"},
              {"nephroid measure measuring/concave-facade --hours day --until 50", "hour by hour"}},
             "Files: for each meter NAME.csv (a row a cell), NAME.exr (a channel a quantity) and NAME.png (false "
-            "colours); measure.json.");
+            "colours), of a goniometer NAME.ies and NAME.ldt; measure.json. With --hours NAME-hours.csv,\n"
+            "NAME-cells.csv (sums over the hours) and NAME-highest.png; hours.json.");
   verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
   verb.option("-o,--output", options->folder, {.type = "DIR", .says = "Also write files into this folder"});
   verb.overrides(options->overrides);

@@ -64,17 +64,23 @@ Map map_of(const scene::MeterSurface& surface) {
 
 std::string csv(const scene::MeterSurface& surface, const glm::dvec3& origin, double metres_per_unit,
                 const Reading& reading) {
-  std::string text = "cell,x,y,z,normal_x,normal_y,normal_z,area_m2";
+  const bool is_far = surface.is_goniometer();
+  std::string text = is_far ? "cell,gamma_deg,c_deg,sr" : "cell,x,y,z,normal_x,normal_y,normal_z,area_m2";
   for (const LayerReading& layer : reading.layers)
-    for (const char* unit : {"W/m^2", "lx"}) {
+    for (const char* unit : {is_far ? "W/sr" : "W/m^2", is_far ? "cd" : "lx"}) {
       const std::string name = layer.name == "all" ? unit : fmt::format("{} {}", layer.name, unit);
       text += fmt::format(",{},{} low,{} high", name, name, name);
     }
   text += "\n";
   for (std::size_t cell = 0; cell < surface.count(); ++cell) {
     const glm::dvec3 p = surface.centres[cell] + origin, n = surface.normals[cell];
-    fmt::format_to(std::back_inserter(text), "{},{:.7g},{:.7g},{:.7g},{:.6g},{:.6g},{:.6g},{:.7g}", cell, p.x, p.y, p.z,
-                   n.x, n.y, n.z, surface.areas[cell] * metres_per_unit * metres_per_unit);
+    if (is_far) {
+      const scene::GammaC way = scene::direction_of(surface, cell);
+      fmt::format_to(std::back_inserter(text), "{},{:.4f},{:.4f},{:.7g}", cell, way.gamma_deg, way.c_deg,
+                     surface.steradians[cell]);
+    } else
+      fmt::format_to(std::back_inserter(text), "{},{:.7g},{:.7g},{:.7g},{:.6g},{:.6g},{:.6g},{:.7g}", cell, p.x, p.y,
+                     p.z, n.x, n.y, n.z, surface.areas[cell] * metres_per_unit * metres_per_unit);
     for (const LayerReading& layer : reading.layers)
       for (const std::vector<Interval>& cells : layer.cells)
         fmt::format_to(std::back_inserter(text), ",{:.7g},{:.7g},{:.7g}", cells[cell].value, cells[cell].low,

@@ -79,7 +79,7 @@ Interval extreme(const CellValues& values_of, const std::vector<double>& means, 
 }
 
 Numbers numbers_of(const CellValues& values_of, const scene::MeterSurface& surface, double area_m2) {
-  const std::vector<double>& areas = surface.areas;
+  const std::vector<double>& areas = surface.weights();
   Numbers numbers;
   std::vector<double> means(values_of.cells(), 0);
   Replicates of_all{};
@@ -152,18 +152,25 @@ Interval interval_of(std::span<const double> values, double rounding) {
 Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, double metres_per_unit,
              const std::vector<photons::MeterLayer>& layers) {
   Reading reading;
-  for (const double area : surface.areas) reading.area_m2 += area * metres_per_unit * metres_per_unit;
+  const double square_metres = metres_per_unit * metres_per_unit;
+  for (const double area : surface.weights()) reading.area_m2 += area * (surface.is_goniometer() ? 1 : square_metres);
   std::vector<double> all(2 * replicates * surface.count(), 0);
-  for (const photons::MeterLayer& layer : layers)
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] += layer.replicates[i];
+  std::vector<photons::MeterLayer> shown = layers;
+  for (photons::MeterLayer& layer : shown)
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::size_t cell = i / 2 % surface.count();
+      if (surface.is_goniometer()) // what crosses the cell, by its solid angle
+        layer.replicates[i] *= surface.areas[cell] * square_metres / surface.steradians[cell];
+      all[i] += layer.replicates[i];
+    }
   reading.layers.push_back(layer_reading("all", all, surface, reading.area_m2));
-  for (const photons::MeterLayer& layer : layers)
+  for (const photons::MeterLayer& layer : shown)
     reading.layers.push_back(layer_reading(layer.name, layer.replicates, surface, reading.area_m2));
   if (meter.threshold) {
     const preset::Quantity threshold = *preset::quantity_in(*meter.threshold); // preset::check has looked
     const auto q = static_cast<std::size_t>(quantity_of(threshold.unit));
     reading.share_above =
-        share_above(reading.all().cells[q], surface.areas, threshold.value * preset::size_of(threshold.unit));
+        share_above(reading.all().cells[q], surface.weights(), threshold.value * preset::size_of(threshold.unit));
   }
   return reading;
 }

@@ -25,13 +25,13 @@ struct Interval {
 /// The mean of independent values of one distribution. rounding: that much of it is added each way.
 Interval interval_of(std::span<const double> replicates, double rounding);
 
-/// Irradiance in W/m^2 and illuminance in lux.
+/// Irradiance in W/m^2 and illuminance in lux; of a goniometer intensities in W/sr and cd.
 enum class Quantity { irradiance, illuminance };
 inline constexpr std::array quantities{Quantity::irradiance, Quantity::illuminance};
 
 /// Of one quantity, over all cells of a meter.
 struct Numbers {
-  Interval mean;        ///< by area
+  Interval mean;        ///< by area, of a goniometer by solid angle
   Interval total;       ///< W or lm: the mean times the area
   Interval peak, least; ///< of cells
   Interval uniformity;  ///< least over mean
@@ -46,8 +46,8 @@ struct LayerReading {
 };
 
 struct Reading {
-  std::vector<LayerReading> layers; ///< all together first
-  double area_m2 = 0;
+  std::vector<LayerReading> layers;    ///< all together first
+  double area_m2 = 0;                  ///< of a goniometer: steradians
   std::optional<Interval> share_above; ///< of the area, above the meter's threshold
   const LayerReading& all() const { return layers.front(); }
 };

@@ -165,10 +165,21 @@ void check_meter(const Meter& m, std::size_t index, const Scene& scene, const Wh
     for (std::size_t axis = 0; m.within && axis < 3; ++axis)
       if (!(m.within->low[axis] < m.within->high[axis]))
         throw bad_input(at("within"), "has no volume: low is not below high", "expected low below high on each axis");
+  } else if (m.type == Meter::Type::goniometer) {
+    check_direction(m.direction, child(pointer, "direction"), where);
+    check_up(m.zero, m.direction, child(pointer, "up"), where);
   } else {
     check_direction(m.normal, child(pointer, "normal"), where);
     if (m.type == Meter::Type::plane) check_up(m.up, m.normal, child(pointer, "up"), where);
   }
+  const bool of_directions = m.type == Meter::Type::goniometer;
+  if (is_intensity(m.unit) != of_directions)
+    throw bad_input(at("unit"), fmt::format("is {}", word(m.unit)),
+                    of_directions ? "expected cd or W/sr for a goniometer" : "expected a unit of light on an area",
+                    of_directions ? "" : "intensity is for meters of type goniometer");
+  if (m.threshold && quantity_in(*m.threshold) && is_intensity(quantity_in(*m.threshold)->unit) != of_directions)
+    throw bad_input(at("threshold"), fmt::format("is {}", in_quotes(*m.threshold)),
+                    of_directions ? "expected cd or W/sr for a goniometer" : "expected a unit of light on an area");
   if (m.threshold && !quantity_in(*m.threshold))
     throw bad_input(at("threshold"), fmt::format("is {}", in_quotes(*m.threshold)),
                     fmt::format("expected a number and one of {}", fmt::join(meter_units(), ", ")),

@@ -98,7 +98,9 @@ template <>
 inline constexpr Choice<Meter::Type> choices<Meter::Type>[] = {
     {Meter::Type::surface, "surface", "An object's surface, or a part of it."},
     {Meter::Type::plane, "plane", "A rectangle in the air."},
-    {Meter::Type::point, "point", "A small window in the air, as of a light meter in the hand."}};
+    {Meter::Type::point, "point", "A small window in the air, as of a light meter in the hand."},
+    {Meter::Type::goniometer, "goniometer",
+     "Far away all around: what lamps and all about them send in each direction."}};
 
 template <>
 inline constexpr Choice<Meter::Unit> choices<Meter::Unit>[] = {
@@ -106,7 +108,9 @@ inline constexpr Choice<Meter::Unit> choices<Meter::Unit>[] = {
     {Meter::Unit::kilowatts, "kW/m^2", "Irradiance."},
     {Meter::Unit::lux, "lx", "Illuminance."},
     {Meter::Unit::kilolux, "klx", "Illuminance."},
-    {Meter::Unit::suns, "suns", "Irradiance in 1,000 W/m^2."}};
+    {Meter::Unit::suns, "suns", "Irradiance in 1,000 W/m^2."},
+    {Meter::Unit::candela, "cd", "A goniometer's luminous intensity."},
+    {Meter::Unit::watts_per_steradian, "W/sr", "A goniometer's radiant intensity."}};
 
 template <>
 inline constexpr Choice<Scene::DamagedMeshes> choices<Scene::DamagedMeshes>[] = {

@@ -264,8 +264,17 @@ void describe(Fields& v, Meter& m) {
     v.field("within", "Only what is in this box; null: all of it.", m.within);
   } else {
     v.field("position", "Its centre.", m.position, {.unit = length_unit, .bounds = position_bounds});
-    v.field("normal", "The way that it looks: light is measured that comes from there.", m.normal,
+    if (m.type != Type::goniometer)
+      v.field("normal", "The way that it looks: light is measured that comes from there.", m.normal,
+              {.bounds = position_bounds});
+  }
+  if (m.type == Type::goniometer) {
+    v.field("direction", "Where gamma = 0, straight down in a luminaire's file, is.", m.direction,
             {.bounds = position_bounds});
+    v.field("up", "Where the plane C = 0 is, as far as the direction allows.", m.zero, {.bounds = position_bounds});
+    v.field("step_deg", "About the angle between its directions.", m.step_deg,
+            {.unit = "degrees", .bounds = within(0.5, 30)});
+    if (m.unit == Meter::Unit::watts) m.unit = Meter::Unit::candela;
   }
   if (m.type == Type::plane) {
     v.field("up", "What is up in its map.", m.up, {.bounds = position_bounds});
@@ -274,7 +283,7 @@ void describe(Fields& v, Meter& m) {
   if (m.type == Type::point)
     v.field("diameter", "Of the window that light enters by.", m.diameter,
             {.unit = length_unit, .bounds = length_bounds});
-  else
+  else if (m.type != Type::goniometer)
     v.field("cell", "The edge of a cell; null: a 64th of the longest edge.", m.cell,
             {.unit = length_unit, .bounds = length_bounds});
   v.field("unit", "Of its map; it says whether watts or lux decide where the peak is and when it has enough.", m.unit);

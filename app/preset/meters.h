@@ -14,11 +14,18 @@ namespace nephroid::preset {
 inline constexpr double lumens_per_watt = 683.002;
 
 /// What an eye makes of light, or its power.
-constexpr bool is_luminous(Meter::Unit unit) { return unit == Meter::Unit::lux || unit == Meter::Unit::kilolux; }
+constexpr bool is_luminous(Meter::Unit unit) {
+  return unit == Meter::Unit::lux || unit == Meter::Unit::kilolux || unit == Meter::Unit::candela;
+}
 
-/// W/m^2, or lx, in one of a unit.
+/// Of light in a direction; else of light on an area.
+constexpr bool is_intensity(Meter::Unit unit) {
+  return unit == Meter::Unit::candela || unit == Meter::Unit::watts_per_steradian;
+}
+
+/// W/m^2, lx, W/sr or cd in one of a unit.
 constexpr double size_of(Meter::Unit unit) {
-  return unit == Meter::Unit::watts || unit == Meter::Unit::lux ? 1 : 1000; // a sun: 1,000 W/m^2
+  return unit == Meter::Unit::watts || unit == Meter::Unit::lux || is_intensity(unit) ? 1 : 1000; // a sun: 1,000
 }
 
 /// "W/m^2", ...

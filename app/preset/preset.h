@@ -281,16 +281,19 @@ struct Box {
 
 /// Measures the light that falls on a surface, in cells. Light takes no notice of it.
 struct Meter {
-  enum class Type { surface, plane, point };
-  enum class Unit { watts, kilowatts, lux, kilolux, suns };
+  enum class Type { surface, plane, point, goniometer };
+  enum class Unit { watts, kilowatts, lux, kilolux, suns, candela, watts_per_steradian };
   Type type = Type::plane;
   std::string name;
   std::string object;                   ///< surface: the name of the object, whose front it measures
   std::optional<Vec3> facing;           ///< surface: only what faces this way, to 45 degrees
   std::optional<Box> within;            ///< surface: only what is in here
-  Vec3 position{0, 0, 0};               ///< plane: its centre; point
+  Vec3 position{0, 0, 0};               ///< plane: its centre; point; goniometer: where directions are counted from
   Vec3 normal{0, 1, 0};                 ///< plane, point: the side that light is measured on
   Vec3 up{0, 0, -1};                    ///< plane: the top of its map (projected)
+  Vec3 direction{0, -1, 0};             ///< goniometer: gamma = 0
+  Vec3 zero{0, 0, 1};                   ///< goniometer: the half-plane C = 0 (projected)
+  double step_deg = 2.5;                ///< goniometer: between directions
   std::array<double, 2> size{1, 1};     ///< plane: its width and its height along `up`
   double diameter = 0.01;               ///< point: the edge of a square with the area of the meter's window
   std::optional<double> cell;           ///< surface, plane: the edge of a cell; else a 64th of the longest edge

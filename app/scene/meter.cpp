@@ -3,6 +3,7 @@
 
 #include "optics/spectrum.h"
 #include "preset/json_text.h"
+#include "scene/directions.h"
 
 #include <fmt/format.h>
 
@@ -208,6 +209,14 @@ private:
   }
 };
 
+/// Of a triangle as seen from a point (Van Oosterom and Strackee 1983).
+double solid_angle(const std::array<glm::vec3, 3>& triangle, const glm::dvec3& from) {
+  const glm::dvec3 a = glm::normalize(glm::dvec3(triangle[0]) - from),
+                   b = glm::normalize(glm::dvec3(triangle[1]) - from),
+                   c = glm::normalize(glm::dvec3(triangle[2]) - from);
+  return 2 * std::atan2(std::abs(glm::dot(a, glm::cross(b, c))), 1 + glm::dot(a, b) + glm::dot(b, c) + glm::dot(c, a));
+}
+
 /// Divides an edge into cells of about this size.
 int cells_along(double edge, double cell) { return std::max(1, static_cast<int>(std::lround(edge / cell))); }
 
@@ -243,6 +252,25 @@ glm::dvec3 usual_up(const glm::dvec3& normal) {
   return std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
 }
 
+/// Adds a rectangle in the air to the charts, cut into cells. chart: its frame and its grid.
+void add_plane(MeterChart chart, const glm::dvec3& centre, double width, double height, Builder& builder) {
+  const double above = lift * std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z), width, height});
+  const glm::dvec3 from = centre - width / 2 * chart.right + height / 2 * chart.up;
+  chart.left = glm::dot(from, chart.right);
+  chart.top = glm::dot(from, chart.up);
+  chart.height = glm::dot(centre, chart.normal()) + above;
+  chart.first = builder.places.size();
+  builder.meter.charts.push_back(chart);
+  builder.places.resize(chart.first + chart.places());
+  for (int row = 0; row < chart.rows; ++row)
+    for (int column = 0; column < chart.columns; ++column) {
+      const glm::dvec3 a = from + column * chart.cell_width * chart.right - row * chart.cell_height * chart.up,
+                       b = a - chart.cell_height * chart.up, c = b + chart.cell_width * chart.right,
+                       d = a + chart.cell_width * chart.right;
+      builder.places[chart.first + chart.place(row, column)].emplace_back(Polygon{a, b, c, d}, 1.0);
+    }
+}
+
 void make_plane(const preset::Meter& meter, const Scene& scene, const Location& where, Builder& builder) {
   const bool point = meter.type == preset::Meter::Type::point;
   const glm::dvec3 normal = glm::normalize(to_dvec3(meter.normal));
@@ -255,21 +283,43 @@ void make_plane(const preset::Meter& meter, const Scene& scene, const Location& 
                height = point ? edge : meter.size[1];
   divide(chart, width, height, point ? edge : cell_of(meter, std::max(width, height)), meter, where);
   const glm::dvec3 centre = to_dvec3(meter.position) - scene.origin;
-  const double above = lift * std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z), width, height});
-  const glm::dvec3 from = centre - width / 2 * chart.right + height / 2 * chart.up;
-  chart.left = glm::dot(from, chart.right);
-  chart.top = glm::dot(from, chart.up);
-  chart.height = glm::dot(centre, normal) + above;
-  builder.meter.charts = {chart};
-  builder.places.resize(chart.places());
-  for (int row = 0; row < chart.rows; ++row)
-    for (int column = 0; column < chart.columns; ++column) {
-      const glm::dvec3 a = from + column * chart.cell_width * chart.right - row * chart.cell_height * chart.up,
-                       b = a - chart.cell_height * chart.up, c = b + chart.cell_width * chart.right,
-                       d = a + chart.cell_width * chart.right;
-      builder.places[chart.place(row, column)].emplace_back(Polygon{a, b, c, d}, 1.0);
-    }
-  builder.finish(above);
+  add_plane(chart, centre, width, height, builder);
+  builder.finish(builder.meter.charts.front().height - glm::dot(centre, normal));
+}
+
+/// A cube far away, whose cells are directions as seen from its middle.
+void make_goniometer(const preset::Meter& meter, const Scene& scene, const Location& where, Builder& builder) {
+  constexpr double far = 100; // times what is in the scene: directions are off by half a degree at most
+  for (const Light& light : scene.lights)
+    if (light.type == preset::Light::Type::directional)
+      throw bad_input(where, "is a goniometer where light comes from far away, which goes on in its own direction",
+                      "expected lamps alone", "leave out the sun, the sky and directional lights");
+  const glm::dvec3 middle = to_dvec3(meter.position) - scene.origin;
+  double reach = 0;
+  for (const Object& object : scene.objects)
+    if (!is_empty(object))
+      reach = std::max(reach, glm::distance(middle, glm::dvec3(object.bounds.centre)) + double(object.bounds.radius));
+  for (const Light& light : scene.lights)
+    reach = std::max(reach, glm::distance(middle, glm::dvec3(light.position)) + glm::length(light.edge_u) / 2 +
+                                glm::length(light.edge_v) / 2);
+  const double edge = 2 * far * std::max(reach, 1e-3);
+  const int cells = std::max(1, static_cast<int>(std::lround(90 / meter.step_deg)));
+  for (const std::array<glm::dvec3, 2>& side : sides) {
+    MeterChart chart{-side[0], side[1]}; // looks to the middle
+    chart.columns = chart.rows = cells;
+    chart.cell_width = chart.cell_height = edge / cells;
+    add_plane(chart, middle - edge / 2 * chart.normal(), edge, edge, builder);
+  }
+  builder.finish(lift * edge);
+  MeterSurface& surface = builder.meter;
+  surface.middle = middle;
+  const glm::dvec3 down = glm::normalize(to_dvec3(meter.direction)),
+                   zero = perpendicular_up(meter.zero, down, where / "up");
+  surface.directions = {zero, glm::cross(zero, down), down};
+  surface.steradians.assign(surface.count(), 0);
+  for (std::size_t cell = 0; cell < surface.count(); ++cell)
+    for (std::uint32_t piece = surface.first_piece[cell]; piece < surface.first_piece[cell + 1]; ++piece)
+      surface.steradians[cell] += solid_angle(surface.pieces[piece], middle);
 }
 
 /// Turns a frame by quarters until its second way is as near as can be to what is up.
@@ -428,6 +478,8 @@ MeterSurface make_meter(const preset::Meter& meter, const Scene& scene, const Lo
   Builder builder{surface};
   if (meter.type == preset::Meter::Type::surface)
     make_surface(meter, scene, where, builder);
+  else if (meter.type == preset::Meter::Type::goniometer)
+    make_goniometer(meter, scene, where, builder);
   else
     make_plane(meter, scene, where, builder);
   if (surface.count() == 0) throw bad_input(where, "has no area", "expected a surface", "look at 'within' and 'size'");

@@ -44,14 +44,29 @@ struct MeterSurface {
   std::vector<float> chances;                   ///< [piece]: of it and those before it, in its cell; the last 1
   std::vector<double> areas;                    ///< [cell], square units
   std::vector<glm::dvec3> centres, normals;     ///< [cell]
+  std::vector<double> steradians;               ///< [cell]: of a goniometer, whose cells are directions; else empty
+  glm::dmat3 directions{1};                     ///< of a goniometer: to C = 0 and C = 90 degrees, and to gamma = 0
+  glm::dvec3 middle{0};                         ///< of a goniometer: where directions are counted from
   std::size_t count() const { return areas.size(); }
+  bool is_goniometer() const { return !steradians.empty(); }
+  /// What means over cells are weighted with: square units, or steradians.
+  const std::vector<double>& weights() const { return is_goniometer() ? steradians : areas; }
 };
+
+/// The direction of a goniometer's cell.
+struct GammaC {
+  double gamma_deg = 0, c_deg = 0; ///< 0..180, 0..360
+};
+GammaC direction_of(const MeterSurface& goniometer, std::size_t cell);
+/// Between the values of the cells about a direction, linearly. values: [cell].
+double at_direction(const MeterSurface& goniometer, const std::vector<double>& values, const GammaC& direction);
 
 /// The most cells of a meter.
 inline constexpr std::size_t most_meter_cells = std::size_t{1} << 18;
 
 /// scene: loaded of the same preset. where: FILE#/scene/meters/INDEX. Throws bad_input there: no surface that faces
-/// there or is in the box, too many cells, a place inside of glass, a plane that looks into the object that it lies on.
+/// there or is in the box, too many cells, a place inside of glass, a plane that looks into the object that it lies on,
+/// a goniometer where light comes from far away.
 MeterSurface make_meter(const preset::Meter& meter, const Scene& scene, const Location& where);
 
 /// The scene as the meter sees it: a camera with a pixel for each cell. A pixel's radiance is its cell's irradiance

@@ -13,15 +13,20 @@ static inline int cell_at(const World* world, __global const DeviceMeterChart* c
   return world->meter_cells[chart->first + (int)y * chart->columns + (int)x];
 }
 
-// The cell of a meter in the air that a path crosses from its front, up to its next hit; -1: none.
+// The cell of a meter in the air that a path crosses from its front, up to its next hit; -1: none. Of several charts,
+// which are a box about the path, it crosses one.
 static inline int cell_crossed(const World* world, const DeviceCamera* meter, const Path* path, float t) {
   if (meter->receiver >= 0) return -1;
-  __global const DeviceMeterChart* chart = world->meter_charts;
-  const float falls = -dot(path->direction, chart->normal.xyz);
-  if (!(falls > 0.0f)) return -1;
-  const float at = (dot(path->origin, chart->normal.xyz) - chart->normal.w) / falls;
-  if (!(at > 0.0f && at <= t)) return -1;
-  return cell_at(world, chart, path->origin + at * path->direction);
+  for (int i = 0; i < meter->meter_charts; ++i) {
+    __global const DeviceMeterChart* chart = world->meter_charts + i;
+    const float falls = -dot(path->direction, chart->normal.xyz);
+    if (!(falls > 0.0f)) continue;
+    const float at = (dot(path->origin, chart->normal.xyz) - chart->normal.w) / falls;
+    if (!(at > 0.0f && at <= t)) continue;
+    const int cell = cell_at(world, chart, path->origin + at * path->direction);
+    if (cell >= 0) return cell;
+  }
+  return -1;
 }
 
 // The cell of a meter on an object's surface that light meets from the front; -1: none. A surface that is not flat has

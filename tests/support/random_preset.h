@@ -111,11 +111,16 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   for (std::size_t i = 0; i < p.scene.meters.size(); ++i) {
     Meter& meter = p.scene.meters[i];
     meter.name = fmt::format("meter {}", i);
-    if (meter.type != Meter::Type::surface) meter.normal = {0.1, -1, 1.0 / 3};
+    if (meter.type == Meter::Type::goniometer) {
+      meter.direction = {0.1, -1, 1.0 / 3}, meter.zero = {0, 0.2, 1};
+      meter.unit = Meter::Unit::watts_per_steradian;
+    } else if (preset::is_intensity(meter.unit))
+      meter.unit = Meter::Unit::suns;
+    if (meter.type != Meter::Type::surface && meter.type != Meter::Type::goniometer) meter.normal = {0.1, -1, 1.0 / 3};
     if (meter.type == Meter::Type::plane) meter.up = {0, 0.2, 1};
     if (meter.facing) meter.facing = {0.1, 1.0 / 3, 1};
     if (meter.within) meter.within = Box{{-1, -2, -3}, {1, 1.0 / 3, 1}};
-    if (meter.threshold) meter.threshold = "2500 W/m^2";
+    if (meter.threshold) meter.threshold = meter.type == Meter::Type::goniometer ? "20 cd" : "2500 W/m^2";
     if (meter.type != Meter::Type::surface) continue;
     if (p.scene.objects.empty()) {
       p.scene.objects.emplace_back().shape.emplace();

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Suns of hours, and heat: what the meters of a preset show in them, and weather files.
+#include "run/hours.h"
+
+#include "base/files.h"
+#include "preset/read.h"
+#include "run/meters.h"
+#include "tests/support/presets.h"
+#include "tests/support/render.h"
+
+#include <numeric>
+
+namespace nephroid::hours_test {
+
+using meters::Interval;
+using meters::Quantity;
+using preset::Meter;
+
+constexpr std::string_view london = R"({"engine": "spectral", "scene": {
+  "environment": {"type": "sky", "lights": true,
+    "place": {"latitude_deg": 51.5, "longitude_deg": 0, "date": "2026-06-21", "hour": 12, "utc_offset_h": 0}},
+  "meters": [{"type": "point", "name": "level", "position": [0, 1, 0], "normal": [0, 1, 0]}]}})";
+
+preset::Preset london_preset() { return preset::parse_preset(std::string(london), "london.json"); }
+
+Interval measured(const preset::Preset& p, int cycles = 4) {
+  run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
+  while (metering.meters()[0].run->cycles() < cycles || !metering.meters()[0].reading) metering.advance();
+  return metering.meters()[0].reading->all().numbers(Quantity::irradiance).mean;
+}
+
+double sum(const optics::Spectrum& spectrum) { return std::accumulate(spectrum.begin(), spectrum.end(), 0.0); }
+
+TEST(MeterHours, ALevelPlaneHasAllOfTheSunAndTheSky) {
+  const preset::Preset p = london_preset();
+  const scene::ClearSky light = scene::clear_sky_of(*p.scene.environment, optics::Band::solar);
+  const double sine = std::sin(scene::sun_place(*p.scene.environment->place).elevation_deg * M_PI / 180);
+  const Interval level = measured(p);
+  const double right = sine * sum(light.direct) + sum(light.diffuse);
+  EXPECT_NEAR(level.value, right, std::max(2 * level.half(), 2e-3 * right));
+  EXPECT_NEAR(right, 890, 60) << "a clear noon in June";
+}
+
+TEST(MeterHours, WhatIsAssumedBeyondTheVisibleIsSaid) {
+  preset::Preset p = london_preset();
+  preset::Material& pane = p.scene.materials["pane"];
+  pane.type = preset::Material::Type::diffuse;
+  pane.reflectance.type = preset::Reflectance::Type::patch;
+  pane.reflectance.patch = "red";
+  const run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
+  EXPECT_EQ(metering.band(), optics::Band::solar);
+  EXPECT_THAT(metering.notes(), Contains(HasSubstr("material 'pane': its reflectance is known from 380 to 780 nm")));
+  EXPECT_THAT(metering.notes(), Contains(HasSubstr("sun and sky by Bird and Riordan")));
+}
+
+TEST(MeterHours, LightThatEndsAtRedIsMeasuredAsItWas) {
+  preset::Preset p = london_preset();
+  p.scene.environment.reset();
+  p.scene.lights.emplace_back();
+  p.scene.lights[0].type = preset::Light::Type::directional;
+  p.scene.lights[0].direction = {0, -1, 0};
+  p.scene.lights[0].irradiance_w_m2 = 5;
+  const run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
+  EXPECT_EQ(metering.band(), optics::Band::visible);
+  p.scene.lights[0].spectrum.type = preset::LightSpectrum::Type::lines;
+  p.scene.lights[0].spectrum.table = {{550, 1}, {1064, 3}};
+  EXPECT_NEAR(measured(p).value, 20, 0.01) << "5 W/m^2 are of 380 to 780 nm";
+}
+
+TEST(MeterHours, ADayHasNightsAndAYearItsDays) {
+  const preset::PlaceAndTime place = *london_preset().scene.environment->place;
+  const run::Hours day = run::hours_of_day(place), year = run::hours_of_year(place, 7);
+  ASSERT_EQ(day.hours.size(), 24u);
+  const auto sky = [&](int hour) {
+    return run::sky_of(*london_preset().scene.environment, place, day.hours[static_cast<std::size_t>(hour)]);
+  };
+  EXPECT_TRUE(run::is_dark(sky(2)));
+  EXPECT_FALSE(run::is_dark(sky(12)));
+  EXPECT_EQ(year.hours.size(), 53u * 24);
+  EXPECT_EQ(year.hours[24].date, "2026-01-08");
+  EXPECT_EQ(year.hours.back().date, "2026-12-31");
+}
+
+/// An EPW file of one day, whose sun shines at 13:30 alone.
+std::string weather_of_a_day() {
+  std::string text = "LOCATION,Somewhere,-,-,Made,0,51.5,0.0,1.0,10.0\n";
+  for (int i = 0; i < 6; ++i) text += "COMMENT\n";
+  text += "DATA PERIODS,1,1,Data,Sunday,1/1,12/31\n";
+  for (int hour = 1; hour <= 24; ++hour)
+    text += fmt::format("1999,6,21,{},60,?,20,10,50,101300,0,1400,300,500,{},{},0,0,0,0\n", hour, hour == 14 ? 640 : 0,
+                        hour == 14 ? 210 : 9999);
+  return text;
+}
+
+class WeatherFile : public testing::Test {
+protected:
+  TemporaryFolder folder_;
+
+  std::string refusal(const std::string& text) {
+    write_file_whole(folder_.path() / "a.epw", text);
+    return refusal_of([&] { scene::read_weather(folder_.path() / "a.epw"); });
+  }
+};
+
+TEST_F(WeatherFile, GivesItsHoursTheirSunAndSky) {
+  write_file_whole(folder_.path() / "a.epw", weather_of_a_day());
+  const scene::Weather weather = scene::read_weather(folder_.path() / "a.epw");
+  const preset::Preset p = london_preset();
+  const run::Hours hours = run::hours_of_weather(weather, *p.scene.environment->place, 1);
+  EXPECT_EQ(hours.missing, 23);
+  ASSERT_EQ(hours.hours.size(), 1u);
+  EXPECT_EQ(hours.hours[0].date, "2026-06-21");
+  EXPECT_EQ(hours.hours[0].hour, 13.5);
+  EXPECT_EQ(hours.place.utc_offset_h, 1);
+  preset::Preset then = p;
+  then.scene.environment = run::sky_of(*p.scene.environment, hours.place, hours.hours[0]);
+  const double sine = std::sin(scene::sun_place(*then.scene.environment->place).elevation_deg * M_PI / 180);
+  const Interval level = measured(then);
+  EXPECT_NEAR(level.value, 640 * sine + 210, std::max(2 * level.half(), 1.7));
+}
+
+TEST_F(WeatherFile, IsRefusedWithItsLine) {
+  const std::string whole = weather_of_a_day();
+  EXPECT_THAT(refusal("no weather\n"), HasSubstr("line 1: does not begin with LOCATION"));
+  EXPECT_THAT(refusal(whole.substr(0, whole.rfind("1999"))), HasSubstr("ends after 23 hours, within a day"));
+  std::string gap = whole;
+  gap.erase(gap.find("1999,6,21,7"), gap.find("1999,6,21,8") - gap.find("1999,6,21,7"));
+  EXPECT_THAT(refusal(gap), HasSubstr("line 15: is of hour 8 after hour 6"));
+  std::string word = whole;
+  word.replace(word.find("640"), 3, "sun");
+  EXPECT_THAT(refusal(word), HasSubstr("line 22: field 15 is \"sun\""));
+  std::string halves = whole;
+  halves.replace(halves.find("PERIODS,1,1"), 11, "PERIODS,1,2");
+  EXPECT_THAT(refusal(halves), HasSubstr("line 8: says that an hour has 2 parts"));
+}
+
+} // namespace nephroid::hours_test
