@@ -23,19 +23,20 @@ double at_direction(const MeterSurface& goniometer, const std::vector<double>& v
       goniometer.charts, {}, [&](const MeterChart& of) { return -glm::dot(of.normal(), way); });
   const glm::dvec3 place = goniometer.middle + way * ((chart.height - glm::dot(goniometer.middle, chart.normal())) /
                                                       glm::dot(way, chart.normal()));
-  const double x = std::clamp((glm::dot(place, chart.right) - chart.left) / chart.cell_width - 0.5, 0.0,
-                              chart.columns - 1.0),
-               y = std::clamp((chart.top - glm::dot(place, chart.up)) / chart.cell_height - 0.5, 0.0, chart.rows - 1.0);
-  const int column = std::min(static_cast<int>(x), std::max(chart.columns - 2, 0)),
-            row = std::min(static_cast<int>(y), std::max(chart.rows - 2, 0));
+  // At a face's edge it goes on straight for half a cell.
+  const double x = (glm::dot(place, chart.right) - chart.left) / chart.cell_width - 0.5,
+               y = (chart.top - glm::dot(place, chart.up)) / chart.cell_height - 0.5;
+  const int column = std::clamp(static_cast<int>(std::floor(x)), 0, std::max(chart.columns - 2, 0)),
+            row = std::clamp(static_cast<int>(std::floor(y)), 0, std::max(chart.rows - 2, 0));
   double sum = 0;
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
       const int to_row = std::min(row + i, chart.rows - 1), to_column = std::min(column + j, chart.columns - 1);
       const int cell = goniometer.cells[chart.first + chart.place(to_row, to_column)];
-      sum += std::abs(1 - i - (y - row)) * std::abs(1 - j - (x - column)) * values[static_cast<std::size_t>(cell)];
+      sum += (i == 0 ? 1 - (y - row) : y - row) * (j == 0 ? 1 - (x - column) : x - column) *
+             values[static_cast<std::size_t>(cell)];
     }
-  return sum;
+  return std::max(sum, 0.0);
 }
 
 } // namespace nephroid::scene

@@ -3,6 +3,7 @@
 #pragma once
 #include "photons/describe_settings.h"
 #include "preset/describe.h"
+#include "preset/meters.h"
 #include "spectral/settings.h"
 #include "tests/support/test.h"
 

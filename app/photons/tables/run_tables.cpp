@@ -5,12 +5,14 @@
 #include "photons/clusters/scene_clusters.h"
 #include "photons/effort/effort.h"
 #include "photons/effort/emitters.h"
+#include "scene/meter.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -38,15 +40,26 @@ std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, con
   return sources;
 }
 
-/// A surface that the light reaches from the scene's radius gets 2^24 quanta of the direct film, and a lamp's own
-/// surface 2^40 at most, which no sample of it exceeds. The limit is one that
-/// the pixel's samples cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
+/// From a light to the nearest cell of a meter, which may be far outside of the scene; 0 without a meter.
+double nearest_cell(const scene::Scene& scene, const scene::Light& light) {
+  if (!scene.camera.meter) return 0;
+  double nearest = std::numeric_limits<double>::max();
+  for (const glm::dvec3& centre : scene.camera.meter->centres)
+    nearest = std::min(nearest, glm::distance(centre, glm::dvec3(light.position)));
+  return nearest;
+}
+
+/// A surface that the light reaches from the scene's radius, or a meter outside of it, gets 2^24 quanta of the direct
+/// film, and a lamp's own surface 2^40 at most, which no sample of it exceeds. The limit is one that the pixel's samples
+/// cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
 void set_scales(const scene::Scene& scene, int samples, RunTables& tables) {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
   tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_batch, tables.light_towards_targets_w);
   double irradiance = 0;
-  for (const scene::Light& light : scene.lights)
-    irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(radius * metres, 2));
+  for (const scene::Light& light : scene.lights) {
+    const double distance = std::max<double>(radius, nearest_cell(scene, light));
+    irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(distance * metres, 2));
+  }
   for (const shared::DeviceLight& light : tables.lights)
     if (light.type == LIGHT_MESH)
       irradiance = std::max(irradiance,
