@@ -88,7 +88,7 @@ struct Series {
 run::Hours hours_of(const HoursOptions& options, const preset::Preset& preset) {
   const auto& sky = preset.scene.environment;
   if (!sky || sky->type != preset::Environment::Type::sky || !sky->place)
-    throw bad_input(Location(preset.source) / "scene" / "environment", "is no sky of a place, and has no hours",
+    throw bad_input(Location(preset.source) / "scene", "has no sky of a place, and so no hours",
                     "expected a sky with \"place\"", "docs/sky.md has one");
   if (options.which == "day") return run::hours_of_day(*sky->place);
   if (options.which == "year") return run::hours_of_year(*sky->place, options.every);

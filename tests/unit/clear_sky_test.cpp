@@ -6,6 +6,7 @@
 #include "scene/clear_sky.h"
 #include "tests/support/presets.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace nephroid::clear_sky_test {

@@ -50,8 +50,8 @@ double nearest_cell(const scene::Scene& scene, const scene::Light& light) {
 }
 
 /// A surface that the light reaches from the scene's radius, or a meter outside of it, gets 2^24 quanta of the direct
-/// film, and a lamp's own surface 2^40 at most, which no sample of it exceeds. The limit is one that the pixel's samples
-/// cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
+/// film, and a lamp's own surface 2^40 at most, which no sample of it exceeds. The limit is one that the samples of a
+/// pixel cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
 void set_scales(const scene::Scene& scene, int samples, RunTables& tables) {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
   tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_batch, tables.light_towards_targets_w);
