@@ -139,40 +139,81 @@ def under_ball(radius, n, floor, half, cells, orders=5, steps=6000):
     return image / (2 * half / cells) ** 2
 
 
-def under_facade(width, height, arc_deg, columns, rows, gap, middle, sun, disc_deg, reflectance, corner, cell, counts):
-    """W/m^2 on square cells of the ground, of panes on an arc: each a mirror patch of the sun's disc."""
-    image = numpy.zeros(counts[0] * counts[1])
-    arc, radius = math.radians(arc_deg), width / math.radians(arc_deg)
-    pane = (2 * radius * math.sin(arc / columns / 2) - gap, height / rows - gap)
-    grid = (numpy.arange(40) + 0.5) / 40 - 0.5
-    golden = numpy.arange(400) + 0.5  # places on the disc, spread evenly
-    r, turn = numpy.sqrt(golden / 400) * math.tan(math.radians(disc_deg / 2)), golden * math.pi * (3 - math.sqrt(5))
+def disc_of(sun, disc_deg, count=400):
+    """Ways of a sun's light, spread evenly over its disc. sun: the way of its middle."""
+    golden = numpy.arange(count) + 0.5
+    r, turn = numpy.sqrt(golden / count) * math.tan(math.radians(disc_deg / 2)), golden * math.pi * (3 - math.sqrt(5))
     sun = numpy.asarray(sun, float) / numpy.linalg.norm(sun)
     aside = numpy.cross(sun, (0, 0, 1.0))
     aside /= numpy.linalg.norm(aside)
     rays = sun + (r * numpy.cos(turn))[:, None] * aside + (r * numpy.sin(turn))[:, None] * numpy.cross(sun, aside)
-    rays /= numpy.linalg.norm(rays, axis=1)[:, None]
+    return rays / numpy.linalg.norm(rays, axis=1)[:, None]
+
+
+def under_facade(width, height, arc_deg, columns, rows, gap, middle, sun, disc_deg, reflectance, corner, cell, counts,
+                 pillow=0.0):
+    """W/m^2 on square cells of the ground, of panes on an arc or a line: each a mirror patch of the sun's disc. A
+    pane's middle stands out by pillow."""
+    image = numpy.zeros(counts[0] * counts[1])
+    arc, along = math.radians(arc_deg), width / columns
+    radius = width / arc if arc else 0
+    chord = 2 * radius * math.sin(arc / columns / 2) if arc else along
+    pane = (chord - gap, height / rows - gap)
+    rays = disc_of(sun, disc_deg)
     depth = radius * (1 - math.cos(arc / 2))
+    up = numpy.array((0, 1.0, 0))
+    u, v = (a.ravel() for a in numpy.meshgrid((numpy.arange(40) + 0.5) / 20 - 1, (numpy.arange(40) + 0.5) / 20 - 1))
     for column in range(columns):
         angle = arc * ((column + 0.5) / columns - 0.5)
         out = numpy.array((-math.sin(angle), 0, math.cos(angle)))
         right = numpy.array((math.cos(angle), 0, math.sin(angle)))
         foot = numpy.array((0, 0, radius - depth / 2)) - radius * math.cos(arc / columns / 2) * out
-        falls = rays @ out
-        away = rays - 2 * falls[:, None] * out
+        if not arc:
+            foot = numpy.array(((column + 0.5) * along - width / 2, 0, 0))
+        slope_x, slope_y = -4 * pillow / pane[0] * u * (1 - v * v), -4 * pillow / pane[1] * v * (1 - u * u)
+        normal = out - slope_x[:, None] * right - slope_y[:, None] * up  # its part along out is 1
+        length2 = (normal ** 2).sum(1)
+        falls = normal @ rays.T  # by the area across `out`
+        away = rays - 2 * (falls / length2[:, None])[:, :, None] * normal[:, None, :]
         for row in range(rows):
             at = middle + foot + numpy.array((0, height / 2 - (row + 0.5) * height / rows, 0))
-            u, v = (a.ravel() for a in numpy.meshgrid(grid * pane[0], grid * pane[1]))
-            places = at + u[:, None] * right + v[:, None] * numpy.array((0, 1.0, 0))
-            t = places[:, None, 1] / -away[None, :, 1]
-            x = places[:, None, 0] + t * away[None, :, 0]
-            z = places[:, None, 2] + t * away[None, :, 2]
+            places = at + u[:, None] * pane[0] / 2 * right + v[:, None] * pane[1] / 2 * up
+            t = places[:, None, 1] / -away[:, :, 1]
+            x = places[:, None, 0] + t * away[:, :, 0]
+            z = places[:, None, 2] + t * away[:, :, 2]
             i = numpy.floor((x - corner[0]) / cell).astype(int)
             j = numpy.floor((z - corner[1]) / cell).astype(int)
-            good = (i >= 0) & (i < counts[0]) & (j >= 0) & (j < counts[1])
-            flux = numpy.broadcast_to(-falls * reflectance * pane[0] * pane[1] / (len(u) * len(rays)), x.shape)
+            good = (i >= 0) & (i < counts[0]) & (j >= 0) & (j < counts[1]) & (t > 0) & (falls < 0)
+            flux = numpy.maximum(-falls, 0) * reflectance * pane[0] * pane[1] / (len(u) * len(rays))
             image += numpy.bincount((j * counts[0] + i)[good], flux[good], len(image))
     return image.reshape(counts[1], counts[0]) / cell ** 2
+
+
+# Elevation and azimuth of the sun in London on 21 June by the hour of the clock, from nephroid measure --hours day.
+JUNE = {11: (53.4, 128.5), 12: (59.5, 151.1), 13: (61.9, 178.9), 14: (59.8, 207.1), 15: (54.0, 230.1)}
+
+
+def facade_cases():
+    """Fronts of 480 panes in the sun: what their mirrors alone send to the street."""
+    def case(name, sun, **pillow):
+        arc = 0 if pillow else 40
+        wall = {"type": "curtain_wall", "size": [40, 72, 1], "arc_deg": arc, "panes": [20, 24], "gap": 0.06} | pillow
+        at = (0, 36, 0.1 if pillow else 3.4)
+        front = {"name": "front", "shape": wall, "material": "coated", "transform": {"translate": list(at)}}
+        facade = under_facade(40, 72, arc, 20, 24, 0.06, numpy.array(at), sun, 0.533, 0.3, (-20, 5), 1, (40, 50),
+                              **pillow)
+        return name, preset(
+            [front, quad(size=400)], [SUN | {"direction": list(sun), "angular_diameter_deg": 0.533}],
+            plane((0, 0.001, 30), size=(40, 50), cell=1), {"coated": MIRROR | {"reflectance": 0.3}}), {
+            "layer": "caustic", "mean": facade.mean(), "peak": facade.max(), "tolerance": 2e-3,
+            "cells": lambda row: facade[int(float(row["z"]) - 5)][int(float(row["x"]) + 20)]}
+    for sun in ((0.05, -1, -1), (0.4, -1, -0.7)):
+        yield case(f"concave facade, sun {sun[0]}", sun)
+    for hour, (elevation, azimuth) in JUNE.items():
+        e, a = math.radians(elevation), math.radians(azimuth)
+        yield case(f"concave facade, June {hour}:00",
+                   (-math.cos(e) * math.sin(a), -math.sin(e), math.cos(e) * math.cos(a)))
+    yield case("pillowed front", (0.05, -1, -1), pillow=-0.003)
 
 
 def cases():
@@ -262,16 +303,7 @@ def cases():
     yield "mirrors towards one place", preset([quad(at=(0, -3, 0), size=20)] + facets,
                                               [SUN | {"direction": [0, -1, 0]}],
                                               plane((0, 4, 0), (0, -1, 0), (1, 1), 0.05)), {"mean": total}
-    wall = {"type": "curtain_wall", "size": [40, 72, 1], "arc_deg": 40, "panes": [20, 24], "gap": 0.06}
-    front = {"name": "front", "shape": wall, "material": "coated", "transform": {"translate": [0, 36, 3.4]}}
-    for sun in ((0.05, -1, -1), (0.4, -1, -0.7)):
-        facade = under_facade(40, 72, 40, 20, 24, 0.06, numpy.array((0, 36, 3.4)), sun, 0.533, 0.3, (-20, 5), 1,
-                              (40, 50))
-        yield f"concave facade, sun {sun[0]}", preset(
-            [front, quad(size=400)], [SUN | {"direction": list(sun), "angular_diameter_deg": 0.533}],
-            plane((0, 0.001, 30), size=(40, 50), cell=1), {"coated": MIRROR | {"reflectance": 0.3}}), {
-            "layer": "caustic", "mean": facade.mean(), "peak": facade.max(), "tolerance": 2e-3,
-            "cells": lambda row, facade=facade: facade[int(float(row["z"]) - 5)][int(float(row["x"]) + 20)]}
+    yield from facade_cases()
     image = under_ball(1, 1.5, -1.6, 1, 10)
     yield "ball in the sun", preset([quad(at=(0, -1.6, 0), size=20), shape("sphere", "glass", radius=1)],
                                     [SUN | {"direction": [0, -1, 0]}], plane((0, -1.6, 0), size=(2, 2), cell=0.2)), {
