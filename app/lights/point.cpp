@@ -2,6 +2,8 @@
 // A point, even or with photometry.
 #include "lights/lights.h"
 
+#include "optics/colour.h"
+#include "preset/meters.h"
 #include "scene/directions.h"
 #include "scene/photometry.h"
 
@@ -9,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 namespace nephroid::lights {
 namespace {
@@ -88,9 +91,10 @@ public:
     describe_power(v, light);
     describe_position(v, light);
     v.field("photometry",
-            "An IES (LM-63) or EULUMDAT file: how the light is spread over directions. power_w is all of it, whatever "
-            "the file's lumens.",
+            "An IES (LM-63) or EULUMDAT file: how the light is spread over directions. power_w is all of it, unless "
+            "file_lumens is true.",
             light.photometry, {.text = preset::Text::file});
+    v.field("file_lumens", "With photometry: take the file's own lumens, whatever power_w says.", light.file_lumens);
     v.field("direction", "With photometry: where the file's gamma = 0, straight down, is; any length but 0.",
             light.direction, {.bounds = preset::position_bounds});
     v.field("up", "With photometry: where the file's plane C = 0 is, as far as the direction allows.", light.up,
@@ -108,6 +112,16 @@ public:
       light.edge_v = glm::cross(light.edge_u, light.direction); // counterclockwise from C = 0, seen from behind
     }
     load_position(from, loading, light);
+    if (!from.file_lumens) return;
+    const Location field = loading.where / "file_lumens";
+    if (!light.photometry)
+      throw bad_input(field, "is true without a photometric file", "expected 'photometry' beside it");
+    if (!(light.photometry->lumens > 0))
+      throw bad_input(field, "is true, and the file does not say its lumens", "expected one set of lamps with lumens",
+                      "leave it out, and set power_w");
+    const optics::Spectrum& y = optics::power_and_luminance(loading.scene.band).y;
+    light.power_w = light.photometry->lumens / preset::lumens_per_watt /
+                    std::inner_product(y.begin(), y.end(), light.spectrum.begin(), 0.0);
   }
 
   void set_row(const scene::Light& light, shared::DeviceLight& row) const override {

@@ -189,6 +189,7 @@ struct Light {
   Vec3 up{0, 0, 1};                 ///< area: along the rectangle's second edge (projected); photometry: C = 0
   double angular_diameter_deg = 0;  ///< directional: of the even disc that it comes from; 0: a point
   std::optional<std::string> photometry; ///< point: an IES or EULUMDAT file; its gamma = 0 is along `direction`
+  bool file_lumens = false;              ///< photometry: the file's own lumens, in place of power_w
   std::optional<std::string> picture;    ///< area: a picture file, of how much light each place sends
   std::string object;                    ///< mesh: the name of the object whose surface shines
   bool operator==(const Light&) const = default;

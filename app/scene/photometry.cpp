@@ -124,6 +124,24 @@ void check_light(const Photometry& p) {
     throw bad_input(p.file.string(), "has no light in any direction");
 }
 
+/// The integral of the intensities over all directions, which are linear in gamma and C: by Simpson's rule in gamma.
+double flux_of(const Photometry& p) {
+  constexpr double degree = std::numbers::pi / 180;
+  const std::size_t gammas = p.gamma_deg.size();
+  double flux = 0;
+  for (std::size_t plane = 1; plane < p.c_deg.size(); ++plane) {
+    const double from = std::max(p.c_deg[plane - 1], 0.0), to = std::min(p.c_deg[plane], 360.0);
+    if (!(from < to)) continue;
+    const double middle = (from + to) / 2;
+    for (std::size_t i = 1; i < gammas; ++i) {
+      const double a = p.gamma_deg[i - 1], b = p.gamma_deg[i];
+      const auto weighted = [&](double gamma) { return intensity(p, gamma, middle) * std::sin(gamma * degree); };
+      flux += degree * (to - from) * degree * (b - a) / 6 * (weighted(a) + 4 * weighted((a + b) / 2) + weighted(b));
+    }
+  }
+  return flux;
+}
+
 /// planes: those that the file has, at 0..360 without 360.
 Photometry make_photometry(const fs::path& file, std::vector<double> gamma_deg, const Planes& planes) {
   Photometry result{file, std::move(gamma_deg), {}, {}};
@@ -137,6 +155,7 @@ Photometry make_photometry(const fs::path& file, std::vector<double> gamma_deg, 
   for (const auto& [c, values] : planes) add(c, values);
   add(first + 360, first_values);
   check_light(result);
+  result.lumens = flux_of(result);
   return result;
 }
 
@@ -164,6 +183,7 @@ Photometry turned_to_c(const Photometry& given, bool is_b) {
       result.intensity.push_back(is_b ? value(degrees(std::atan2(ahead, down)), degrees(std::asin(right)))
                                       : value(gamma - 90, degrees(std::atan2(right, ahead))));
     }
+  result.lumens = flux_of(result);
   return result;
 }
 
@@ -183,7 +203,7 @@ Photometry read_ies(const fs::path& file, std::string_view text, int line, bool 
             planes = words.count("the number of horizontal angles", most_angles);
   const int type = words.count("the photometric type", 3); // C, B, A
   words.numbers(4, "the luminaire's size");
-  words.numbers(3, "the ballast's factor or the watts");
+  const double ballast = words.numbers(3, "the ballast's factor or the watts").front();
   std::vector<double> gamma_deg = words.numbers(gammas, "a vertical angle");
   std::vector<double> c_deg;
   if (type != 1) {
@@ -193,7 +213,9 @@ Photometry read_ies(const fs::path& file, std::string_view text, int line, bool 
     Photometry given{file, std::move(gamma_deg), std::move(c_deg), words.numbers(gammas * planes, "an intensity")};
     for (double& value : given.intensity) value *= multiplier;
     words.end();
-    return turned_to_c(given, type == 2);
+    Photometry made = turned_to_c(given, type == 2);
+    made.lumens *= ballast;
+    return made;
   }
   check_rising(gamma_deg, 0, 180, "vertical angle", words.where());
   c_deg = words.numbers(planes, "a horizontal angle");
@@ -218,7 +240,9 @@ Photometry read_ies(const fs::path& file, std::string_view text, int line, bool 
   else if (last > 0 && !(last >= 270)) // all around, with or without the first plane again
     throw bad_input(words.where(), fmt::format("the last horizontal angle is {} degrees", last),
                     "expected 0, 90, 180 or 360");
-  return make_photometry(file, std::move(gamma_deg), values);
+  Photometry made = make_photometry(file, std::move(gamma_deg), values);
+  made.lumens *= ballast;
+  return made;
 }
 
 /// Without the ends of lines.
@@ -266,7 +290,9 @@ public:
     }
     if (symmetry == 3 || symmetry == 4) mirror(values, 180);
     if (symmetry == 2 || symmetry == 4) mirror(values, 360);
-    return make_photometry(file_, std::move(gamma_deg), values);
+    Photometry made = make_photometry(file_, std::move(gamma_deg), values);
+    made.lumens *= sets == 1 ? number(29, "the lumens of the lamps") / 1000 : 0; // it has cd for 1,000 lm
+    return made;
   }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a luminaire spreads its light over directions, as IES files (ANSI/IES LM-63-1986 to -2019) and EULUMDAT files
-// (Stockmar 1990) have it. What they say of lamps, lumens and watts is not read: a preset says the power.
+// (Stockmar 1990) have it. What they say of watts and ballasts is not read.
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -14,6 +14,7 @@ struct Photometry {
   std::vector<double> gamma_deg; ///< rising, within 0..180; outside of them there is no light
   std::vector<double> c_deg; ///< rising, from 0 or less to 360 or more: the file's planes and what its symmetry says
   std::vector<double> intensity; ///< [c][gamma], of any unit; not negative, not all 0
+  double lumens = 0; ///< what the file's candela add up to; 0: EULUMDAT with several sets of lamps, or none of lumens
 };
 
 /// Types A and B of IES become C planes in steps of half a degree of gamma and a degree of C. Type A is about the same

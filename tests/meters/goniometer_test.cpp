@@ -5,6 +5,7 @@
 #include "preset/read.h"
 #include "run/meters.h"
 #include "scene/photometry.h"
+#include "scene/scene.h"
 #include "tests/support/presets.h"
 #include "tests/support/render.h"
 
@@ -116,6 +117,25 @@ TEST(Goniometer, WritesTheFileOfALampThatWasRead) {
         EXPECT_NEAR(scene::intensity(out, gamma, c) / unit, right, 0.02 * right + 2e-3) << name << gamma << ' ' << c;
       }
   }
+}
+
+// Its candela add up to 2 pi / 3 lm, through a ballast of .9. As EULUMDAT the lumens are those of the goniometer.
+TEST(Goniometer, ALampMayHaveItsFilesOwnLumens) {
+  const TemporaryFolder folder;
+  std::string text = uneven_lamp();
+  text.replace(text.find("\n1 1 10\n"), 8, "\n.9 1 10");
+  folder.write("in.ies", text);
+  const auto lumens_of = [&](const std::string& file) {
+    const Measured far = measured(lamp_preset(
+        R"({"type": "point", "file_lumens": true, "photometry": ")" + file + "\"}", "", folder.path().string() + "/"));
+    folder.write("out.ldt", meters::eulumdat(far.meter, far.surface, far.reading, "lamp"));
+    return far.reading.all().numbers(Quantity::illuminance).total.value;
+  };
+  const double lumens = lumens_of("in.ies");
+  EXPECT_NEAR(lumens, 0.9 * 2 * M_PI / 3, 4e-3 * lumens);
+  EXPECT_NEAR(lumens_of("out.ldt"), lumens, 1e-2 * lumens);
+  EXPECT_THAT(refusal_of([] { scene::load_scene(lamp_preset(R"({"type": "point", "file_lumens": true})")); }),
+              HasSubstr("lights/0/file_lumens: is true without a photometric file"));
 }
 
 TEST(Goniometer, HasNoUseForTheSun) {
