@@ -57,6 +57,7 @@ public:
   preset::Preset make(const std::string& name) {
     made_.name = name;
     made_.description = "Imported from " + name_of(from_.source.filename().string(), "a scene");
+    made_.unit = from_.length;
     made_.scene.materials = from_.materials;
     for (auto& [key, material] : made_.scene.materials) {
       std::vector<std::string*> files{&material.dispersion.file, &material.metal};
@@ -483,7 +484,10 @@ Imported import_scene(const fs::path& file, const fs::path& preset, const Watch&
   watch.begin("reading " + file.filename().string());
   const fs::path plain = lower_case(file.extension().string()) == ".gz" ? file.stem() : file;
   const std::string kind = lower_case(plain.extension().string());
-  const auto describe = kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf;
+  const auto describe = kind == ".xml"    ? describe_mitsuba
+                        : kind == ".pbrt" ? describe_pbrt
+                        : kind == ".asc"  ? describe_gemcad
+                                          : describe_gltf;
   Description description;
   try {
     describe(file, description);
