@@ -31,8 +31,8 @@ struct ConvexBody {
 };
 
 /// The intersection. Corners that are less than 1e-6 of the largest distance apart become one, and a half-space that
-/// cuts off less than that has no face. The faces are closed: each edge has two, of opposite directions. Throws failed
-/// where roundings leave no such body.
+/// cuts off less than that has no face. The faces are closed: each edge has two, of opposite directions. Throws
+/// bad_input where roundings leave no such body.
 ConvexBody intersection(std::span<const HalfSpace> half_spaces);
 
 /// Each face as a fan of triangles about the corner that makes the smallest of their heights largest.

@@ -206,5 +206,7 @@ void describe_gltf(const std::filesystem::path& file, Description& into);
 void describe_mitsuba(const std::filesystem::path& file, Description& into);
 void describe_pbrt(const std::filesystem::path& file, Description& into);
 void describe_gemcad(const std::filesystem::path& file, Description& into);
+/// The one of them that the file's ending asks for, behind which .gz may stand.
+void describe_file(const std::filesystem::path& file, Description& into);
 
 } // namespace nephroid::formats

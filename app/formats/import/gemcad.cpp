@@ -179,7 +179,13 @@ ConvexBody stone_of(const GemcadFile& gem, Description& into) {
       tiers.push_back(i);
     }
   }
-  ConvexBody stone = intersection(planes);
+  ConvexBody stone = [&] {
+    try {
+      return intersection(planes);
+    } catch (const Error& error) {
+      throw error.at(into.source);
+    }
+  }();
   if (!stone.is_bounded())
     throw bad_input(into.source.string(),
                     fmt::format("the facets leave the stone open {}", side_of(stone.open_towards)));

@@ -4,7 +4,6 @@
 
 #include "base/counted.h"
 #include "base/files.h"
-#include "base/lower_case.h"
 #include "formats/import/backs.h"
 #include "formats/import/dielectrics.h"
 #include "formats/import/emitter.h"
@@ -482,15 +481,9 @@ std::string Imported::summary() const {
 
 Imported import_scene(const fs::path& file, const fs::path& preset, const Watch& watch) {
   watch.begin("reading " + file.filename().string());
-  const fs::path plain = lower_case(file.extension().string()) == ".gz" ? file.stem() : file;
-  const std::string kind = lower_case(plain.extension().string());
-  const auto describe = kind == ".xml"    ? describe_mitsuba
-                        : kind == ".pbrt" ? describe_pbrt
-                        : kind == ".asc"  ? describe_gemcad
-                                          : describe_gltf;
   Description description;
   try {
-    describe(file, description);
+    describe_file(file, description);
     place_middles(description);
     settle_dielectrics(description);
     return written(description, preset, watch);
