@@ -77,6 +77,8 @@ TEST_F(GemcadImport, ThePresetHasTheStoneAboveATableWithALampAndACamera) {
   EXPECT_EQ(p.scene.lights.size(), 1u);
   EXPECT_NEAR(p.scene.objects[0].transform.translate[1], 5 + 1.5, 1e-9); // its centre, 1.5 mm above half its height
   EXPECT_GT(p.scene.camera.position[1], 10);
+  // 1 mW in a cone of 7 degrees, 0.0468 sr, 57 mm away: 6.6 W/m^2, of which the eye takes about a third; over pi.
+  EXPECT_NEAR(*p.white, 0.7, 0.15);
 }
 
 // An octagon about a circle of radius 1 has the area 8 tan 22.5. Above and below it are a frustum and a pyramid.
@@ -178,6 +180,9 @@ TEST_F(GemcadImport, WhatIsNoStoneIsRefused) {
   EXPECT_THAT(refusal(changed("72\n", "7x\n")), HasSubstr("in.asc:6: its index \"7x\" is no number"));
   EXPECT_THAT(refusal(changed("90.0", "nan")), HasSubstr("in.asc:6: its angle \"nan\" is no number"));
   EXPECT_THAT(refusal(changed("90.0", "90.5")), HasSubstr("in.asc:6: an angle of 90.5 degrees"));
+  EXPECT_THAT(refusal(changed("90.0 1.0", "90.0 1e-9")),
+              HasSubstr("in.asc: the facets leave a stone that is too thin"));
+  EXPECT_THAT(refusal(cube + "a 40 1 0 n\na 40 1 97"), HasSubstr("in.asc:11: an index of 97"));
   EXPECT_THAT(refusal(cube + "a 40"), HasSubstr("in.asc:10: its distance is missing"));
   EXPECT_THAT(refusal(cube + "a 40 1"), HasSubstr("in.asc:10: the facet has no index"));
   EXPECT_THAT(refusal(cube + "a 40 -1 96"), HasSubstr("in.asc:10: a distance of -1 leaves nothing of the stone"));

@@ -209,7 +209,7 @@ ConvexBody intersection(std::span<const HalfSpace> half_spaces) {
     cutting.settle(half_spaces);
     if (cutting.is_closed()) return std::move(cutting.body);
   }
-  throw bad_input("half-spaces", "what they have in common is too thin for its size: roundings leave it open");
+  throw bad_input("half-spaces", "what they have in common is too thin for its size");
 }
 
 scene::Mesh mesh_of(const ConvexBody& body) {

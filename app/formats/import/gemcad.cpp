@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace nephroid::formats {
@@ -73,7 +74,8 @@ private:
       words.insert(words.begin() + 1, key.substr(1));
       key.resize(1);
     }
-    const bool goes_on = is_open_ && (name_follows_ || key == "n" || key == "G" || scene_number(key));
+    const bool is_record = key.size() == 1 && std::string_view("agyIHF").find(key[0]) != std::string_view::npos;
+    const bool goes_on = is_open_ && ((name_follows_ && !is_record) || key == "n" || key == "G" || scene_number(key));
     if (goes_on) return read_indices(words, 0);
     is_open_ = false;
     if (key == "g")
@@ -182,8 +184,9 @@ ConvexBody stone_of(const GemcadFile& gem, Description& into) {
   ConvexBody stone = [&] {
     try {
       return intersection(planes);
-    } catch (const Error& error) {
-      throw error.at(into.source);
+    } catch (const Error&) {
+      throw bad_input(into.source, "the facets leave a stone that is too thin for its size", {},
+                      "check their distances");
     }
   }();
   if (!stone.is_bounded())
@@ -220,7 +223,7 @@ void show(double width, Description& into) {
   lamp.position = scene::to_vec3(position);
   lamp.direction = scene::to_vec3(glm::normalize(target - position));
   lamp.half_angle_deg = 7;
-  lamp.power_w = 1;
+  lamp.power_w = 1e-3;
   into.lamps.push_back(lamp);
   DescribedCamera& camera = into.camera.emplace();
   const glm::dvec3 eye(0, 2.3 * width, 4 * width), forward = glm::normalize(target - eye), right(1, 0, 0);

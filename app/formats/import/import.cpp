@@ -378,7 +378,10 @@ private:
     double white = from_.unit;
     if (from_.fits_white) {
       double irradiance = 0;
-      for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, middle());
+      const double m = preset::metres(made_.unit);
+      for (const preset::Light& light : made_.scene.lights)
+        irradiance +=
+            luminous_irradiance(light, middle()) / (light.type == preset::Light::Type::directional ? 1 : m * m);
       white = irradiance > 0 ? irradiance / pi : 1;
     }
     made_.white = white / from_.exposure;
