@@ -17,7 +17,8 @@ struct ForeignKind {
 
 inline constexpr ForeignKind foreign_kinds[] = {
     {".gem .gcs ", "GemCad", "a cutting list of GemCad",
-     "export the stone as STL or OBJ, which an object of a preset takes as its \"mesh\""},
+     "run `nephroid import` on its .asc, or export the stone as STL or OBJ, which an object of a preset takes as its "
+     "\"mesh\""},
     {".step .stp .iges .igs .3dm .f3d .dwg .dxf .skp .fcstd ", "ISO-10303-21", "a CAD model",
      "export it as glTF, or its surfaces as STL"},
     {".blend .fbx .dae .usd .usda .usdc .usdz .max .c4d .ma .mb .abc ", "BLENDER", "a scene of another kind",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid import`: a glTF, Mitsuba or PBRT scene as a preset.
+// `nephroid import`: a glTF, Mitsuba or PBRT scene or a stone of GemCad as a preset.
 #include "formats/import/import.h"
 #include "base/files.h"
 #include "cli/progress.h"
@@ -53,11 +53,11 @@ void import_scene(const ImportOptions& options) {
 
 void add_import(CLI::App& program, Session&) {
   const auto options = std::make_shared<ImportOptions>();
-  Verb verb(program, "import", "A preset from a glTF, Mitsuba or PBRT scene: meshes, camera, lights, materials",
+  Verb verb(program, "import",
+            "A preset from a glTF, Mitsuba or PBRT scene or a stone of GemCad: meshes, camera, lights, materials",
             {{"nephroid import scene.gltf", "writes scene.json"}, {"nephroid run scene.json --seconds 10", ""}},
-            "Takes .gltf, .glb, .xml of Mitsuba and .pbrt. Meshes become PLY files in a folder beside the preset. What "
-            "has no counterpart "
-            "is left out and said\n"
+            "Takes .gltf, .glb, .xml of Mitsuba, .pbrt and .asc of GemCad. Meshes become PLY files in a folder beside "
+            "the preset. What has no counterpart is left out and said\n"
             "on standard error. Standard output has the preset's file: nephroid run takes it.");
   verb.option("FILE", options->file, {.says = "The scene", .required = true});
   verb.option("-o,--output", options->output,

@@ -447,11 +447,11 @@ TEST_F(GltfImport, FilesOfOtherKindsAreCalledWhatTheyAre) {
   const auto said = [&](const std::string& name, const std::string& bytes) {
     return refusal_of([&] { import(bytes, name); });
   };
-  const std::string scenes = "; expected glTF (.gltf, .glb), Mitsuba (.xml) or PBRT (.pbrt)";
-  EXPECT_THAT(
-      said("stone.asc", "GemCad 5.0\ng 96 0.0\n"),
-      AllOf(HasSubstr("stone.asc: is a cutting list of GemCad, which is not read" + scenes + "; export the stone"),
-            Not(HasSubstr("JSON"))));
+  const std::string scenes = "; expected glTF (.gltf, .glb), Mitsuba (.xml), PBRT (.pbrt) or GemCad (.asc)";
+  EXPECT_THAT(said("stone.gem", "GemCad 5.0\ng 96 0.0\n"),
+              AllOf(HasSubstr("stone.gem: is a cutting list of GemCad, which is not read" + scenes +
+                              "; run `nephroid import` on its .asc"),
+                    Not(HasSubstr("JSON"))));
   EXPECT_THAT(said("part", "ISO-10303-21;\nHEADER;\n"), HasSubstr("is a CAD model, which is not read" + scenes));
   EXPECT_THAT(said("part.STEP", "x"), HasSubstr("is a CAD model, which is not read"));
   EXPECT_THAT(said("cup.obj", "v 0 0 0\n"), HasSubstr("is a mesh and no scene" + scenes));

@@ -28,7 +28,7 @@ const DialogKind& kind_of_dialog(Question question) {
   const auto surround = [](const std::string& name) { return Command(command::OpenMap{name}); };
   const auto add = [](const std::string& name) { return Command(command::AddMesh{name}); };
   static const DialogKind kinds[] = {
-      {Question::open, "Open a preset or a scene", "", {".json", ".gltf", ".glb", ".xml", ".pbrt"}},
+      {Question::open, "Open a preset or a scene", "", {".json", ".gltf", ".glb", ".xml", ".pbrt", ".asc"}},
       {Question::open_history,
        "Open the history of a run",
        "",

@@ -35,7 +35,7 @@ struct KnownKind {
 constexpr std::array kinds{
     KnownKind{FileKind::dispersion, ".yml .yaml .agf ", "is dispersion data",
               "drop it on the window once a preset with glass is open, or print it with `nephroid dispersion {}`"},
-    KnownKind{FileKind::scene, ".gltf .glb .xml .pbrt ", "is a scene",
+    KnownKind{FileKind::scene, ".gltf .glb .xml .pbrt .asc ", "is a scene",
               "drop it on the window, which makes a preset of it, or run `nephroid import {} -o PRESET.json`"},
     KnownKind{FileKind::mesh, ".obj .ply .stl .3ds ", "is a mesh",
               "drop it on the window once a preset with a scene is open, or name it in one as an object's \"mesh\""},

@@ -65,6 +65,15 @@ std::string read_packed_file(const fs::path& file) {
   return lower_case(file.extension().string()) == ".gz" ? inflated(bytes, file) : bytes;
 }
 
+void describe_file(const fs::path& file, Description& into) {
+  const fs::path plain = lower_case(file.extension().string()) == ".gz" ? file.stem() : file;
+  const std::string kind = lower_case(plain.extension().string());
+  if (kind == ".xml") return describe_mitsuba(file, into);
+  if (kind == ".pbrt") return describe_pbrt(file, into);
+  if (kind == ".asc") return describe_gemcad(file, into);
+  describe_gltf(file, into);
+}
+
 void Description::note(const std::string& text) {
   if (noted.insert(text).second) notes.push_back(text);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of glTF, Mitsuba and PBRT files find, in the file's own coordinates and units. import.cpp makes a
+// What the readers of glTF, Mitsuba, PBRT and GemCad files find, in the file's own coordinates and units. import.cpp makes a
 // preset of it. Intensities are colours whose luminance is in the file's unit of power.
 #pragma once
 #include "base/bytes.h"
@@ -93,6 +93,7 @@ inline constexpr std::size_t max_shapes = 1000000; ///< of a file: instances of 
 
 struct Description {
   std::filesystem::path source;
+  preset::Preset::Unit length = preset::Preset::Unit::m; ///< of the file's coordinates
   double unit = 1; ///< luminance Y (W m^-2 sr^-1, no factor 683) of a radiance of 1 in the file, which is white there
   double exposure = 1;     ///< a picture's values over the radiance, both as the file has them
   bool fits_white = false; ///< the file has no radiance that is white: one is made of its lights
@@ -204,5 +205,8 @@ double same_power_half_angle_deg(double outer_deg, const Fade& fade) {
 void describe_gltf(const std::filesystem::path& file, Description& into);
 void describe_mitsuba(const std::filesystem::path& file, Description& into);
 void describe_pbrt(const std::filesystem::path& file, Description& into);
+void describe_gemcad(const std::filesystem::path& file, Description& into);
+/// The one of them that the file's ending asks for, behind which .gz may stand.
+void describe_file(const std::filesystem::path& file, Description& into);
 
 } // namespace nephroid::formats

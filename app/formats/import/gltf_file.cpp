@@ -15,7 +15,7 @@ namespace nephroid::formats {
 namespace {
 
 constexpr const char* expected = "a glTF 2.0 file, .gltf or .glb";
-constexpr const char* scenes = "expected glTF (.gltf, .glb), Mitsuba (.xml) or PBRT (.pbrt)";
+constexpr const char* scenes = "expected glTF (.gltf, .glb), Mitsuba (.xml), PBRT (.pbrt) or GemCad (.asc)";
 constexpr int max_depth = 64;
 
 /// Without these the file's triangles cannot be read, where it requires them.

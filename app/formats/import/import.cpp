@@ -4,7 +4,6 @@
 
 #include "base/counted.h"
 #include "base/files.h"
-#include "base/lower_case.h"
 #include "formats/import/backs.h"
 #include "formats/import/dielectrics.h"
 #include "formats/import/emitter.h"
@@ -57,6 +56,7 @@ public:
   preset::Preset make(const std::string& name) {
     made_.name = name;
     made_.description = "Imported from " + name_of(from_.source.filename().string(), "a scene");
+    made_.unit = from_.length;
     made_.scene.materials = from_.materials;
     for (auto& [key, material] : made_.scene.materials) {
       std::vector<std::string*> files{&material.dispersion.file, &material.metal};
@@ -378,7 +378,10 @@ private:
     double white = from_.unit;
     if (from_.fits_white) {
       double irradiance = 0;
-      for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, middle());
+      const double m = preset::metres(made_.unit);
+      for (const preset::Light& light : made_.scene.lights)
+        irradiance +=
+            luminous_irradiance(light, middle()) / (light.type == preset::Light::Type::directional ? 1 : m * m);
       white = irradiance > 0 ? irradiance / pi : 1;
     }
     made_.white = white / from_.exposure;
@@ -481,12 +484,9 @@ std::string Imported::summary() const {
 
 Imported import_scene(const fs::path& file, const fs::path& preset, const Watch& watch) {
   watch.begin("reading " + file.filename().string());
-  const fs::path plain = lower_case(file.extension().string()) == ".gz" ? file.stem() : file;
-  const std::string kind = lower_case(plain.extension().string());
-  const auto describe = kind == ".xml" ? describe_mitsuba : kind == ".pbrt" ? describe_pbrt : describe_gltf;
   Description description;
   try {
-    describe(file, description);
+    describe_file(file, description);
     place_middles(description);
     settle_dielectrics(description);
     return written(description, preset, watch);
