@@ -68,12 +68,12 @@ void print_numbers(const MeterInHand& meter, const Reading& reading, Quantity qu
   }
 }
 
-void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::Band band) {
+void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::SpectralRange range) {
   const Reading& reading = *meter.reading;
   const Numbers &watts = reading.all().numbers(Quantity::irradiance),
                 &lux = reading.all().numbers(Quantity::illuminance);
   fmt::print("{}: {}, {:.4g} {}, light of {}; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"),
-             reading.area_m2, meter.surface.is_goniometer() ? "sr" : "m^2", text_of(band), meter.seconds);
+             reading.extent, meter.surface.is_goniometer() ? "sr" : "m^2", text_of(range), meter.seconds);
   if (meter.photons > 0) fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.photons));
   fmt::print("\n");
   print_numbers(meter, reading, Quantity::irradiance);
@@ -111,8 +111,12 @@ Json to_json(const Numbers& numbers, const char* total) {
 
 Json to_json(const MeterInHand& meter) {
   const Reading& reading = *meter.reading;
-  Json object{{"name", meter.meter.name}, {"cells", meter.surface.count()}, {"area_m2", reading.area_m2},
-              {"seconds", meter.seconds}, {"photons", meter.photons},       {"lost_share", meter.run->lost_share()}};
+  Json object{{"name", meter.meter.name},
+              {"cells", meter.surface.count()},
+              {meter.surface.is_goniometer() ? "steradians" : "area_m2", reading.extent},
+              {"seconds", meter.seconds},
+              {"photons", meter.photons},
+              {"lost_share", meter.run->lost_share()}};
   for (const LayerReading& layer : reading.layers)
     object["layers"][layer.name] = {
         {unit_of(meter, Quantity::irradiance), to_json(layer.numbers(Quantity::irradiance), "total_w")},
@@ -146,11 +150,11 @@ void report(const MeasureOptions& options, const run::Metering& metering) {
   Json list = Json::array();
   for (const MeterInHand& meter : metering.meters()) {
     list.push_back(to_json(meter));
-    if (!options.json) print_text(meter, metering.prepared().preset, metering.band());
+    if (!options.json) print_text(meter, metering.prepared().preset, metering.range());
     if (!options.folder.empty()) write_files(options.folder, meter, metering.prepared().loaded->scene.metres_per_unit);
   }
   const Json object{{"preset", metering.prepared().preset.name},
-                    {"wavelengths", text_of(metering.band())},
+                    {"wavelengths", text_of(metering.range())},
                     {"confidence", 0.95},
                     {"meters", list}};
   if (options.json) fmt::print("{}\n", json_text(object));

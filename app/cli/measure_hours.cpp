@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace nephroid::cli {
 namespace {
@@ -37,8 +38,8 @@ struct Line {
   glm::dvec3 place{0}; ///< of the peak, as the preset counts
 };
 
-/// The hours in which the peak is above the threshold, of the time that the series is of. value: those whose peak is
-/// more likely above than below; low, high: those in which it surely is, and may be.
+/// The hours in which the peak is above the threshold, of the time that the series is of. value: those whose
+/// highest mean is above; low, high: those in which the peak surely is, and may be.
 Interval hours_above(const std::vector<Line>& lines, double threshold, double weight_h) {
   Interval hours;
   for (const Line& line : lines) {
@@ -71,6 +72,8 @@ struct Series {
   std::optional<double> threshold; ///< W/m^2 or lx; nothing where it is of the other quantity than the unit
   std::optional<Reading> highest;  ///< of the hour with the highest peak; nothing: none has light
   scene::MeterSurface surface;     ///< of all hours
+  double lost_share = 0;           ///< the largest of an hour (photons::MeterRun)
+  std::uint64_t refused = 0;       ///< in all hours
   glm::dvec3 origin{0};            ///< preset coordinates of the scene's (0, 0, 0)
 
   explicit Series(const preset::Meter& of) : meter(of) {
@@ -114,10 +117,10 @@ void print_line(const Line& line, double unit, const char* before = "") {
 }
 
 /// Each hour of a day, of longer times the highest one of each month.
-void print_text(const Series& series, const run::Hours& hours, optics::Band band) {
-  const double unit = preset::size_of(series.meter.unit);
+void print_text(const Series& series, const run::Hours& hours, optics::SpectralRange range) {
+  const double unit = preset::size_of(preset::unit_of(series.meter));
   fmt::print("{}: {}, {} with light; {} of {}\n", series.meter.name, hours.about, counted(series.lines.size(), "hour"),
-             preset::word(series.meter.unit), text_of(band));
+             preset::word(preset::unit_of(series.meter)), text_of(range));
   if (series.lines.empty()) return;
   std::map<std::string, const Line*> shown;
   for (const Line& line : series.lines) {
@@ -127,13 +130,19 @@ void print_text(const Series& series, const run::Hours& hours, optics::Band band
   }
   for (const auto& [key, line] : shown) print_line(*line, unit);
   print_line(series.top(), unit, "  highest:");
+  if (series.refused > 0)
+    fmt::print("  {} were too bright for the film and are not in these numbers\n",
+               counted(series.refused, "contribution"));
+  if (series.lost_share > 1e-4)
+    fmt::print("  up to {:.2g} % of the photons' power met too many surfaces and is not in these numbers\n",
+               100 * series.lost_share);
   if (series.threshold) {
     const Interval above = hours_above(series.lines, *series.threshold, hours.weight_h);
     fmt::print("  above {}: {:.0f} h ({:.0f} to {:.0f})\n", *series.meter.threshold, above.value, above.low,
                above.high);
   } else if (series.meter.threshold)
     fmt::print("  above {}: not counted, for the meter's unit is {}\n", *series.meter.threshold,
-               preset::word(series.meter.unit));
+               preset::word(preset::unit_of(series.meter)));
 }
 
 Json to_json(const Line& line) {
@@ -149,6 +158,8 @@ Json to_json(const Line& line) {
 Json to_json(const Series& series, const run::Hours& hours) {
   Json object{{"name", series.meter.name},
               {"quantity", preset::is_luminous(series.meter.unit) ? "lx" : "W/m^2"},
+              {"lost_share", series.lost_share},
+              {"refused", series.refused},
               {"hours", Json::array()}};
   for (const Line& line : series.lines) object["hours"].push_back(to_json(line));
   if (!series.lines.empty()) object["highest"] = to_json(series.top());
@@ -170,7 +181,10 @@ std::string cells_csv(const Series& series) {
 }
 
 std::string hours_csv(const Series& series) {
-  std::string text = "date,hour,sun_elevation_deg,sun_azimuth_deg,mean,mean_half,peak,peak_low,peak_high,x,y,z\n";
+  const char* const unit = preset::is_luminous(series.meter.unit) ? "lx" : "W/m^2";
+  std::string text = fmt::format("date,hour,sun_elevation_deg,sun_azimuth_deg,mean {0},mean {0} half,peak {0},peak {0} "
+                                 "low,peak {0} high,x,y,z\n",
+                                 unit);
   for (const Line& l : series.lines)
     text += fmt::format("{},{:g},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", l.hour.date,
                         l.hour.hour, l.sun.elevation_deg, l.sun.azimuth_deg, l.mean.value, l.mean.half(), l.peak.value,
@@ -178,14 +192,14 @@ std::string hours_csv(const Series& series) {
   return text;
 }
 
-void report(const HoursOptions& options, const run::Hours& hours, const std::vector<Series>& all, optics::Band band,
-            const std::string& preset) {
-  Json object{{"preset", preset},       {"wavelengths", text_of(band)},   {"confidence", 0.95},
+void report(const HoursOptions& options, const run::Hours& hours, const std::vector<Series>& all,
+            optics::SpectralRange range, const std::string& preset) {
+  Json object{{"preset", preset},       {"wavelengths", text_of(range)},  {"confidence", 0.95},
               {"series", hours.about},  {"missing_hours", hours.missing}, {"hours_each", hours.weight_h},
               {"meters", Json::array()}};
   for (const Series& series : all) {
     object["meters"].push_back(to_json(series, hours));
-    if (!options.json) print_text(series, hours, band);
+    if (!options.json) print_text(series, hours, range);
     if (options.folder.empty() || !series.highest) continue;
     const std::string stem = preset::file_stem(series.meter);
     write_file_whole(options.folder / (stem + "-hours.csv"), hours_csv(series));
@@ -219,11 +233,15 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
   const run::Hours hours = hours_of(options, prepared.preset);
   if (hours.missing > 0)
     fmt::print(stderr, "note: {} of the weather file have no data and are left out\n", counted(hours.missing, "hour"));
+  if (hours.twilight > 0)
+    fmt::print(stderr, "note: {} of the weather file have light and their sun below the horizon, and are left out\n",
+               counted(hours.twilight, "hour"));
   if (!options.folder.empty()) fs::create_directories(options.folder);
   std::vector<Series> all;
   for (const preset::Meter& meter : prepared.preset.scene.meters)
     if (options.meter.empty() || meter.name == options.meter) all.emplace_back(meter);
-  optics::Band band = optics::Band::solar;
+  optics::SpectralRange range = optics::SpectralRange::solar;
+  std::set<std::string> told;
   LiveLine live;
   const bool shows = progress_style(options.json) == ProgressStyle::live;
   for (std::size_t i = 0; i < hours.hours.size() && !interrupted.stop_requested(); ++i) {
@@ -234,8 +252,10 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
     const preset::Environment& sky = *now.preset.scene.environment;
     if (run::is_dark(sky) && now.preset.scene.lights.empty()) continue; // nothing to measure
     run::Metering metering(now, context, options.meter);
+    for (const std::string& note : metering.notes())
+      if (note != metering.sky() && told.insert(note).second) fmt::print(stderr, "note: {}\n", note);
     if (!measure_hour(options, metering, interrupted)) break;
-    if (!run::is_dark(sky)) band = metering.band();
+    if (!run::is_dark(sky)) range = metering.range();
     for (std::size_t m = 0; m < metering.meters().size(); ++m) {
       const MeterInHand& meter = metering.meters()[m];
       Series& series = all[m];
@@ -244,14 +264,16 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
       series.sums.add(meter.reading->all().cells[static_cast<std::size_t>(meters::quantity_of(meter.meter.unit))],
                       hours.weight_h, series.threshold);
       if (is_highest) series.highest = meter.reading;
+      series.lost_share = std::max(series.lost_share, meter.run->lost_share());
+      series.refused += meter.run->refused();
       series.surface = meter.surface, series.origin = meter.origin;
       if (shows)
         live.show(fmt::format("{} {}: {} {}", hour.date, clock(hour.hour), series.meter.name,
-                              text_of(series.lines.back().peak, preset::size_of(series.meter.unit))));
+                              text_of(series.lines.back().peak, preset::size_of(preset::unit_of(series.meter)))));
     }
   }
   live.clear();
-  report(options, hours, all, band, prepared.preset.name);
+  report(options, hours, all, range, prepared.preset.name);
   if (interrupted.stop_requested())
     throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted: the numbers are of the hours until then");
 }

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace nephroid::lights {
 
@@ -152,10 +151,10 @@ void preset::describe(Fields& v, Light& light) {
 void scene::add_light(const preset::Light& from, const FileFinder& finder, const Location& where, Scene& scene) {
   Light light;
   light.type = from.type;
-  light.spectrum = scatter::make_light_spectrum(from.spectrum, where / "spectrum", scene.band);
+  light.spectrum = scatter::make_light_spectrum(from.spectrum, where / "spectrum", scene.range);
   lights::model(light).load(from, {scene, finder, where, scene.warnings}, light);
-  if (scene.band != optics::Band::visible) { // power is given for 380 to 780 nm, and there is more
-    const double all = std::accumulate(light.spectrum.begin(), light.spectrum.end(), 0.0);
+  if (scene.range != optics::SpectralRange::visible) { // power is given for 380 to 780 nm, and there is more
+    const double all = optics::sum_of(light.spectrum);
     for (double& share : light.spectrum) share /= all;
     light.power_w *= all, light.irradiance_w_m2 *= all;
   }

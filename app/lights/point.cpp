@@ -119,7 +119,7 @@ public:
     if (!(light.photometry->lumens > 0))
       throw bad_input(field, "is true, and the file does not say its lumens", "expected one set of lamps with lumens",
                       "leave it out, and set power_w");
-    const optics::Spectrum& y = optics::power_and_luminance(loading.scene.band).y;
+    const optics::Spectrum& y = optics::power_and_luminance(loading.scene.range).y;
     light.power_w = light.photometry->lumens / preset::lumens_per_watt /
                     std::inner_product(y.begin(), y.end(), light.spectrum.begin(), 0.0);
   }

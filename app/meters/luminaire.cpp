@@ -32,6 +32,9 @@ Grid grid_of(const preset::Meter& meter, const scene::MeterSurface& goniometer, 
   return grid;
 }
 
+/// As long as a line of EULUMDAT may be.
+std::string cut(const std::string& text) { return text.substr(0, 78); }
+
 double lumens_of(const Reading& reading) { return reading.all().numbers(Quantity::illuminance).total.value; }
 double watts_of(const Reading& reading) { return reading.all().numbers(Quantity::irradiance).total.value; }
 
@@ -40,9 +43,10 @@ double watts_of(const Reading& reading) { return reading.all().numbers(Quantity:
 std::string ies(const preset::Meter& meter, const scene::MeterSurface& goniometer, const Reading& reading,
                 const std::string& name) {
   const Grid grid = grid_of(meter, goniometer, reading);
-  std::string text = fmt::format("IESNA:LM-63-2002\n[TEST] {}\n[MANUFAC] Nephroid\n[LUMINAIRE] {}\n"
-                                 "TILT=NONE\n1 {:.6g} 1 {} {} 1 2 0 0 0\n1 1 {:.6g}\n",
-                                 meter.name, name, lumens_of(reading), grid.gammas, grid.planes + 1, watts_of(reading));
+  std::string text = fmt::format(
+      "IESNA:LM-63-2002\n[TEST] {}\n[TESTLAB] Nephroid\n[ISSUEDATE] none\n[MANUFAC] Nephroid\n[LUMINAIRE] {}\n"
+      "TILT=NONE\n1 {:.6g} 1 {} {} 1 2 0 0 0\n1 1 {:.6g}\n",
+      cut(meter.name), cut(name), lumens_of(reading), grid.gammas, grid.planes + 1, watts_of(reading));
   const auto numbers = [&](int count, const auto& number) { // lines of few numbers: some readers take 256 characters
     for (int i = 0; i < count; ++i)
       fmt::format_to(std::back_inserter(text), "{:.6g}{}", number(i), i + 1 == count || i % 12 == 11 ? "\n" : " ");
@@ -65,8 +69,8 @@ std::string eulumdat(const preset::Meter& meter, const scene::MeterSurface& goni
       all += flux;
       below += angle < 90 ? flux : angle > 90 ? 0 : flux / 2;
     }
-  std::string text = fmt::format("Nephroid\n1\n0\n{}\n{:.6g}\n{}\n{:.6g}\n{}\n{}\n\n\n\n", grid.planes, grid.step_deg,
-                                 grid.gammas, grid.step_deg, meter.name, name);
+  std::string text = fmt::format("Nephroid\n3\n0\n{}\n{:.6g}\n{}\n{:.6g}\n{}\n{}\n\n\n\n", grid.planes, grid.step_deg,
+                                 grid.gammas, grid.step_deg, cut(meter.name), cut(name));
   for (int i = 0; i < 9; ++i) text += "0\n"; // its sizes
   text += fmt::format("{:.4g}\n100\n1\n0\n1\n1\n-\n{:.6g}\n-\n-\n{:.6g}\n", all > 0 ? 100 * below / all : 0, lumens,
                       watts_of(reading));

@@ -9,7 +9,7 @@
 namespace nephroid::meters {
 
 /// name: for people, one line. In steps of the meter's step_deg or less, which divide 90 degrees; C from 0 to 360.
-/// Lumens are the reading's.
+/// Lumens are the reading's, and so are the watts: of light, not of electricity.
 std::string ies(const preset::Meter& meter, const scene::MeterSurface& goniometer, const Reading& reading,
                 const std::string& name);
 /// The same as EULUMDAT, without symmetry: cd for 1,000 lm.

@@ -14,7 +14,10 @@ namespace {
 
 using Colour = std::array<unsigned char, 3>;
 
-const char* name_of(Quantity quantity) { return quantity == Quantity::irradiance ? "irradiance" : "illuminance"; }
+const char* name_of(const scene::MeterSurface& surface, Quantity quantity) {
+  if (surface.is_goniometer()) return quantity == Quantity::irradiance ? "radiant_intensity" : "luminous_intensity";
+  return quantity == Quantity::irradiance ? "irradiance" : "illuminance";
+}
 
 /// A value between cells, of those around that are there; nothing where none is.
 std::optional<double> between(const Map& map, const std::vector<double>& values, double x, double y) {
@@ -97,11 +100,11 @@ image::Image picture(const scene::MeterSurface& surface, double metres_per_unit,
   image.height = map.height;
   for (const LayerReading& layer : reading.layers)
     for (const Quantity quantity : quantities) {
-      const std::string name =
-          layer.name == "all" ? name_of(quantity) : fmt::format("{}.{}", layer.name, name_of(quantity));
+      const std::string name = layer.name == "all" ? name_of(surface, quantity)
+                                                   : fmt::format("{}.{}", layer.name, name_of(surface, quantity));
       image.channels.insert(image.channels.end(), {name, name + ".half"});
     }
-  image.channels.push_back("area");
+  image.channels.push_back(surface.is_goniometer() ? "steradians" : "area");
   image.data.reserve(map.cells.size() * image.channels.size());
   for (const int cell : map.cells) {
     if (cell < 0) {
@@ -114,7 +117,8 @@ image::Image picture(const scene::MeterSurface& surface, double metres_per_unit,
         image.data.push_back(static_cast<float>(cells[c].value));
         image.data.push_back(static_cast<float>(cells[c].half()));
       }
-    image.data.push_back(static_cast<float>(surface.areas[c] * metres_per_unit * metres_per_unit));
+    image.data.push_back(static_cast<float>(
+        surface.is_goniometer() ? surface.steradians[c] : surface.areas[c] * metres_per_unit * metres_per_unit));
   }
   return image;
 }
@@ -126,11 +130,13 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
   const int zoom = std::max(1, wanted_edge / std::max(map.width, map.height));
   const auto q = static_cast<std::size_t>(quantity_of(meter.unit));
   std::vector<double> values;
-  for (const Interval& cell : reading.all().cells[q]) values.push_back(cell.value / preset::size_of(meter.unit));
+  for (const Interval& cell : reading.all().cells[q])
+    values.push_back(cell.value / preset::size_of(preset::unit_of(meter)));
   const double scale = measure::colour_scale(std::vector<float>(values.begin(), values.end()));
   const measure::ColourBar bar = measure::colour_bar(map.height * zoom, scale, false);
   const int lines = bar.numbers - 1; // at the numbers beside the bar
-  const image::Image words = image::text_picture(std::string(preset::word(meter.unit)), 16, Location("a meter's map"));
+  const image::Image words =
+      image::text_picture(std::string(preset::word(preset::unit_of(meter))), 16, Location("a meter's map"));
   const int top = words.height + 12, width = map.width * zoom;
   measure::Bitmap bitmap(width + std::max(bar.width, words.width + 12), top + std::max(map.height * zoom, bar.height));
   measure::Bitmap beside(bar.width, bar.height);

@@ -19,6 +19,9 @@ double students_t(std::size_t count) {
   return t[std::min(count, std::size(t) + 1) - 2];
 }
 
+/// Of all light around a goniometer, whose cells are off by more.
+constexpr double rounding_of_sums = 4e-6;
+
 constexpr std::size_t replicates = photons::meter_replicates;
 using Replicates = std::array<double, replicates>;
 
@@ -78,7 +81,7 @@ Interval extreme(const CellValues& values_of, const std::vector<double>& means, 
   return {own.value, own.low, std::max(mean + half_width, own.value)};
 }
 
-Numbers numbers_of(const CellValues& values_of, const scene::MeterSurface& surface, double area_m2) {
+Numbers numbers_of(const CellValues& values_of, const scene::MeterSurface& surface, double extent) {
   const std::vector<double>& areas = surface.weights();
   Numbers numbers;
   std::vector<double> means(values_of.cells(), 0);
@@ -93,8 +96,8 @@ Numbers numbers_of(const CellValues& values_of, const scene::MeterSurface& surfa
     }
   }
   for (double& value : of_all) value /= area;
-  numbers.mean = interval_of(of_all, surface.rounding);
-  numbers.total = {numbers.mean.value * area_m2, numbers.mean.low * area_m2, numbers.mean.high * area_m2};
+  numbers.mean = interval_of(of_all, surface.is_goniometer() ? rounding_of_sums : surface.rounding);
+  numbers.total = {numbers.mean.value * extent, numbers.mean.low * extent, numbers.mean.high * extent};
   numbers.peak_cell = static_cast<std::size_t>(std::ranges::max_element(means) - means.begin());
   const auto least_cell = static_cast<std::size_t>(std::ranges::min_element(means) - means.begin());
   numbers.peak = extreme(values_of, means, numbers.peak_cell, surface.rounding, std::greater());
@@ -109,13 +112,13 @@ Numbers numbers_of(const CellValues& values_of, const scene::MeterSurface& surfa
 }
 
 LayerReading layer_reading(std::string name, std::span<const double> both, const scene::MeterSurface& surface,
-                           double area_m2) {
+                           double extent) {
   LayerReading layer;
   layer.name = std::move(name);
   for (const Quantity quantity : quantities) {
     const auto q = static_cast<std::size_t>(quantity);
     const CellValues values_of(both, quantity);
-    layer.of[q] = numbers_of(values_of, surface, area_m2);
+    layer.of[q] = numbers_of(values_of, surface, extent);
     layer.cells[q].resize(surface.count());
     for_ranges(surface.count(), 1 << 12, [&](std::size_t, Range range) {
       for (std::size_t cell = range.begin; cell < range.end; ++cell)
@@ -153,7 +156,7 @@ Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, dou
              const std::vector<photons::MeterLayer>& layers) {
   Reading reading;
   const double square_metres = metres_per_unit * metres_per_unit;
-  for (const double area : surface.weights()) reading.area_m2 += area * (surface.is_goniometer() ? 1 : square_metres);
+  for (const double area : surface.weights()) reading.extent += area * (surface.is_goniometer() ? 1 : square_metres);
   std::vector<double> all(2 * replicates * surface.count(), 0);
   std::vector<photons::MeterLayer> shown = layers;
   for (photons::MeterLayer& layer : shown)
@@ -163,9 +166,9 @@ Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, dou
         layer.replicates[i] *= surface.areas[cell] * square_metres / surface.steradians[cell];
       all[i] += layer.replicates[i];
     }
-  reading.layers.push_back(layer_reading("all", all, surface, reading.area_m2));
+  reading.layers.push_back(layer_reading("all", all, surface, reading.extent));
   for (const photons::MeterLayer& layer : shown)
-    reading.layers.push_back(layer_reading(layer.name, layer.replicates, surface, reading.area_m2));
+    reading.layers.push_back(layer_reading(layer.name, layer.replicates, surface, reading.extent));
   if (meter.threshold) {
     const preset::Quantity threshold = *preset::quantity_in(*meter.threshold); // preset::check has looked
     const auto q = static_cast<std::size_t>(quantity_of(threshold.unit));

@@ -47,7 +47,7 @@ struct LayerReading {
 
 struct Reading {
   std::vector<LayerReading> layers;    ///< all together first
-  double area_m2 = 0;                  ///< of a goniometer: steradians
+  double extent = 0;                   ///< of all cells, m^2; of a goniometer steradians
   std::optional<Interval> share_above; ///< of the area, above the meter's threshold
   const LayerReading& all() const { return layers.front(); }
 };

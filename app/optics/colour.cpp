@@ -122,16 +122,16 @@ const ColourMatching& cie_1931() {
   return functions;
 }
 
-const ColourMatching& power_and_luminance(Band band) {
-  const auto make = [](Band of) {
+const ColourMatching& power_and_luminance(SpectralRange range) {
+  const auto make = [](SpectralRange of) {
     ColourMatching result{};
     result.x.fill(1);
     result.y = rebinned(cie_1931().y, of); // the mean over each cell
     for (std::size_t i = 0; i < result.y.size(); ++i) result.y[i] /= cells(of).width_nm[i];
     return result;
   };
-  static const ColourMatching visible = make(Band::visible), solar = make(Band::solar);
-  return band == Band::visible ? visible : solar;
+  static const ColourMatching visible = make(SpectralRange::visible), solar = make(SpectralRange::solar);
+  return range == SpectralRange::visible ? visible : solar;
 }
 
 Colour to_xyz(const Spectrum& spectrum) {
@@ -173,11 +173,12 @@ double srgb_encode(double linear) {
 
 double lightness(double relative_luminance) { return 116 * lab_root(relative_luminance) - 16; }
 
-const std::array<Spectrum, 3>& primary_spectra(Band band) {
+const std::array<Spectrum, 3>& primary_spectra(SpectralRange range) {
   static const std::array<Spectrum, 3> visible = make_primary_spectra();
-  static const std::array<Spectrum, 3> solar{rebinned(visible[0], Band::solar), rebinned(visible[1], Band::solar),
-                                             rebinned(visible[2], Band::solar)};
-  return band == Band::visible ? visible : solar;
+  static const std::array<Spectrum, 3> solar{rebinned(visible[0], SpectralRange::solar),
+                                             rebinned(visible[1], SpectralRange::solar),
+                                             rebinned(visible[2], SpectralRange::solar)};
+  return range == SpectralRange::visible ? visible : solar;
 }
 
 // Where the smoothest spectrum is negative somewhere, exp(sum of amounts times the same three ways) takes its place.

@@ -14,7 +14,7 @@ struct ColourMatching {
 };
 const ColourMatching& cie_1931();
 /// What a meter makes of light in their place: x its power, y as they have it, z 0.
-const ColourMatching& power_and_luminance(Band band);
+const ColourMatching& power_and_luminance(SpectralRange range);
 
 /// Sum over wavelengths of spectrum times (xbar, ybar, zbar), times 1 nm; no factor 683.
 Colour to_xyz(const Spectrum& spectrum);
@@ -33,8 +33,8 @@ double lightness(double relative_luminance);
 /// Spectra for light that is known by its colour alone and meets glass: the smoothest ones of the three linear sRGB
 /// primaries, of all with their XYZ those with the smallest sum of squared second differences. Smoothness is linear, so
 /// r, g, b times these is the smoothest spectrum of the colour (r, g, b). They are negative here and there.
-/// In the solar band they have nothing beyond 380..780 nm.
-const std::array<Spectrum, 3>& primary_spectra(Band band = Band::visible);
+/// In the solar range they have nothing beyond 380..780 nm.
+const std::array<Spectrum, 3>& primary_spectra(SpectralRange range = SpectralRange::visible);
 
 /// A spectrum of light of a colour in linear sRGB, of which no part is negative and one is not 0: the smoothest one
 /// where that is negative nowhere, else one whose logarithm is smooth.

@@ -151,7 +151,7 @@ IndexSample DispersionCurve::sample(double nm, Extrapolation outside) const {
   return result;
 }
 
-Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside, Band band) {
+Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside, SpectralRange range) {
   if (!curve.n)
     throw bad_input(curve.source, curve.name + " has no index of refraction n, only k", {}, "choose another file");
   if (const auto gap = curve.n->gap_nm; gap && outside == Extrapolation::refuse)
@@ -161,7 +161,7 @@ Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside, Band band
   return spectrum_of(
       [&](double nm) {
         std::optional<double> n = curve.sample(nm, outside).n;
-        if (band != Band::visible && outside != Extrapolation::refuse && !(n && *n > 0))
+        if (range != SpectralRange::visible && outside != Extrapolation::refuse && !(n && *n > 0))
           n = curve.sample(nm, Extrapolation::hold).n;
         if (!n) throw no_index(curve, nm, outside);
         if (!(*n > 0))
@@ -169,10 +169,10 @@ Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside, Band band
                           "expected n above 0");
         return *n;
       },
-      band);
+      range);
 }
 
-Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside, Band band) {
+Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside, SpectralRange range) {
   if (!curve.k) return {};
   const double low = curve.k->low_nm, high = curve.k->high_nm;
   return spectrum_of(
@@ -180,7 +180,7 @@ Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside, Band band
         if (outside == Extrapolation::refuse && is_outside(nm, low, high)) throw refusal(curve, "k", nm, low, high);
         return std::max(0.0, curve.k->value(std::clamp(nm, low, high)));
       },
-      band);
+      range);
 }
 
 Curve curve_of(LinearTable table) {
@@ -195,15 +195,22 @@ std::optional<double> abbe_number(const DispersionCurve& curve) {
   return (*d.n - 1) / (*f.n - *c.n);
 }
 
-std::string outside_note(const DispersionCurve& curve, Extrapolation outside, Band band) {
+std::string outside_note(const DispersionCurve& curve, Extrapolation outside, SpectralRange range) {
   if (!curve.n) return {};
-  const double from = cells(band).nm.front(), to = cells(band).nm.back();
+  const double from = cells(range).nm.front(), to = cells(range).nm.back();
   const double low = curve.n->low_nm, high = curve.n->high_nm;
-  std::string where;
-  if (is_outside(from, low, high)) where = fmt::format("below {:.6g} nm", std::min(low, to));
-  if (is_outside(to, low, high))
-    where += fmt::format("{}above {:.6g} nm", where.empty() ? "" : " and ", std::max(high, from));
+  const auto outside_of = [&](double low_nm, double high_nm) {
+    std::string where;
+    if (is_outside(from, low_nm, high_nm)) where = fmt::format("below {:.6g} nm", std::min(low_nm, to));
+    if (is_outside(to, low_nm, high_nm))
+      where += fmt::format("{}above {:.6g} nm", where.empty() ? "" : " and ", std::max(high_nm, from));
+    return where;
+  };
+  const std::string where = outside_of(low, high);
   std::vector<std::string> notes;
+  if (range != SpectralRange::visible && curve.k) // as pictures have it, nobody asks
+    if (const std::string of_k = outside_of(curve.k->low_nm, curve.k->high_nm); !of_k.empty())
+      notes.push_back(fmt::format("k is held {}", of_k));
   const bool held = outside == Extrapolation::hold || !curve.n->formula;
   if (!where.empty())
     notes.push_back(

@@ -41,15 +41,16 @@ struct DispersionCurve {
   IndexSample sample(double nm, Extrapolation outside = Extrapolation::automatic) const;
 };
 
-/// n on the 401 wavelengths of a band. In the solar band a formula that goes on beyond its range and gives no index
+/// n on the 401 wavelengths of a range. In the solar range a formula that goes on beyond its range and gives no index
 /// there is held at the end of the range. Throws bad_input where n is missing, not finite or <= 0, and, refusing, for a
 /// gap.
-Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside, Band band = Band::visible);
+Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside, SpectralRange range = SpectralRange::visible);
 /// k on them (0 where the data has none or a negative value; ends held unless refused).
-Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside, Band band = Band::visible);
-/// What a run must say when its band, as 380..780 nm, reaches beyond the data of n, e.g. "N-SF66: n is extrapolated
+Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside, SpectralRange range = SpectralRange::visible);
+/// What a run must say when its range, as 380..780 nm, reaches beyond the data of n, e.g. "N-SF66: n is extrapolated
 /// below 390 nm (data: 390..2500 nm)", or into a gap of it; empty where they do not.
-std::string outside_note(const DispersionCurve& curve, Extrapolation outside, Band band = Band::visible);
+std::string outside_note(const DispersionCurve& curve, Extrapolation outside,
+                         SpectralRange range = SpectralRange::visible);
 
 /// V_d = (n_d - 1) / (n_F - n_C); empty if the data does not reach the three lines or has no dispersion.
 std::optional<double> abbe_number(const DispersionCurve& curve);

@@ -94,7 +94,7 @@ std::array<Spectrum, 3> make_primary_reflectances() {
 
 } // namespace
 
-const std::array<Spectrum, 3>& primary_reflectances(Band band) {
+const std::array<Spectrum, 3>& primary_reflectances(SpectralRange range) {
   static const std::array<Spectrum, 3> visible = make_primary_reflectances();
   static const std::array<Spectrum, 3> solar = [] {
     std::array<Spectrum, 3> spectra{};
@@ -102,11 +102,11 @@ const std::array<Spectrum, 3>& primary_reflectances(Band band) {
       std::vector<Row> rows;
       for (int w = 0; w < wavelength_count; ++w)
         rows.push_back({double(wavelength_nm(w)), visible[c][static_cast<std::size_t>(w)]});
-      spectra[c] = spectrum_of(LinearTable(std::move(rows)), Band::solar);
+      spectra[c] = spectrum_of(LinearTable(std::move(rows)), SpectralRange::solar);
     }
     return spectra;
   }();
-  return band == Band::visible ? visible : solar;
+  return range == SpectralRange::visible ? visible : solar;
 }
 
 } // namespace nephroid::optics

@@ -15,10 +15,10 @@ namespace nephroid::optics {
 namespace {
 
 /// Divides by the sum over 380..780 nm. Throws bad_input where there is nothing to divide.
-Spectrum normalised(Spectrum spectrum, const std::string& what, Band band = Band::visible) {
+Spectrum normalised(Spectrum spectrum, const std::string& what, SpectralRange range = SpectralRange::visible) {
   double sum = 0;
   for (std::size_t i = 0; i < spectrum.size(); ++i)
-    if (const double nm = cells(band).nm[i]; nm > first_nm - 0.5 && nm < last_nm + 0.5) sum += spectrum[i];
+    if (const double nm = cells(range).nm[i]; nm > first_nm - 0.5 && nm < last_nm + 0.5) sum += spectrum[i];
   if (!(sum > 0) || !std::isfinite(sum))
     throw bad_input({}, what + fmt::format(" has no power in {}..{} nm", first_nm, last_nm),
                     "expected at least one wavelength with power there");
@@ -27,7 +27,7 @@ Spectrum normalised(Spectrum spectrum, const std::string& what, Band band = Band
 }
 
 /// The end values are held outside the table.
-Spectrum held(const LinearTable& table, Band band) { return spectrum_of(table, band); }
+Spectrum held(const LinearTable& table, SpectralRange range) { return spectrum_of(table, range); }
 
 /// Of a table that is 0 outside, from low to high.
 double integral(const LinearTable& table, double low, double high) {
@@ -95,12 +95,12 @@ const Table& colorchecker() {
 
 const std::vector<std::string>& illuminant_names() { return illuminants().columns; }
 
-Spectrum illuminant(const std::string& name, Band band) {
+Spectrum illuminant(const std::string& name, SpectralRange range) {
   const LinearTable table = column(illuminants(), "illuminant", name);
-  return rebinned(normalised(spectrum_of_table(table.rows()), "illuminant " + name), band);
+  return rebinned(normalised(spectrum_of_table(table.rows()), "illuminant " + name), range);
 }
 
-Spectrum blackbody(double temperature_k, Band band) {
+Spectrum blackbody(double temperature_k, SpectralRange range) {
   if (!std::isfinite(temperature_k) || !(temperature_k > 0))
     throw bad_input({}, fmt::format("a black body of {} K", temperature_k), "expected a temperature above 0 K");
   // Planck: lambda^-5 / (exp(c2 / (lambda T)) - 1), with c2 = h c / k_B (SI 2019, exact figures). Divided by its value
@@ -113,9 +113,9 @@ Spectrum blackbody(double temperature_k, Band band) {
         return std::pow(last_nm / nm, 5) * std::exp(reference - exponent) * std::expm1(-reference) /
                std::expm1(-exponent);
       },
-      band);
-  for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] *= cells(band).width_nm[i];
-  return normalised(spectrum, fmt::format("a black body of {} K", temperature_k), band);
+      range);
+  for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] *= cells(range).width_nm[i];
+  return normalised(spectrum, fmt::format("a black body of {} K", temperature_k), range);
 }
 
 Spectrum spectrum_of_table(std::span<const Row> sorted) {
@@ -125,59 +125,52 @@ Spectrum spectrum_of_table(std::span<const Row> sorted) {
   return spectrum_of([&](double nm) { return nm >= table.low() && nm <= table.high() ? table(nm) : 0; });
 }
 
-Spectrum integrals_of_table(std::span<const Row> sorted, Band band) {
+Spectrum integrals_of_table(std::span<const Row> sorted, SpectralRange range) {
   const LinearTable table({sorted.begin(), sorted.end()});
   Spectrum spectrum{};
   for (std::size_t i = 0; i < spectrum.size(); ++i) {
-    const double nm = cells(band).nm[i], half = cells(band).width_nm[i] / 2;
+    const double nm = cells(range).nm[i], half = cells(range).width_nm[i] / 2;
     spectrum[i] = integral(table, nm - half, nm + half);
   }
   return spectrum;
 }
 
-Spectrum light_table(std::span<const std::array<double, 2>> nm_power, Band band) {
+Spectrum light_table(std::span<const std::array<double, 2>> nm_power, SpectralRange range) {
   require_no_negative_power(nm_power);
   const std::vector<Row> rows = sorted_rows(nm_power, Duplicates::refuse, {});
   const Spectrum visible = normalised(spectrum_of_table(rows), "the light's table");
-  if (band == Band::visible || !(rows.front()[0] < first_nm || rows.back()[0] > last_nm))
-    return rebinned(visible, band);
-  return normalised(integrals_of_table(rows, band), "the light's table", band);
+  if (range == SpectralRange::visible || !(rows.front()[0] < first_nm || rows.back()[0] > last_nm))
+    return rebinned(visible, range);
+  return normalised(integrals_of_table(rows, range), "the light's table", range);
 }
 
-Spectrum light_lines(std::span<const std::array<double, 2>> nm_power, Band band) {
+Spectrum light_lines(std::span<const std::array<double, 2>> nm_power, SpectralRange range) {
   require_no_negative_power(nm_power);
   Spectrum spectrum{};
   for (const auto& [nm, power] : nm_power) {
     if (!std::isfinite(nm) || !std::isfinite(power)) throw bad_input({}, "a line holds a number that is not finite");
-    if (band != Band::visible) {
-      for (std::size_t i = 0; i < spectrum.size(); ++i)
-        if (std::abs(nm - cells(band).nm[i]) <= cells(band).width_nm[i] / 2) {
-          spectrum[i] += power;
-          break;
-        }
-      continue;
-    }
-    if (nm < first_nm || nm > last_nm) continue;
-    const double position = nm - first_nm;
-    const auto below = static_cast<std::size_t>(position);
-    const double share = position - static_cast<double>(below);
+    const Spectrum& middles = cells(range).nm;
+    if (nm < middles.front() || nm > middles.back()) continue;
+    const auto above = std::ranges::upper_bound(middles, nm);
+    const auto below = static_cast<std::size_t>(above - middles.begin()) - 1;
+    const double share = above == middles.end() ? 0 : (nm - middles[below]) / (*above - middles[below]);
     spectrum[below] += power * (1 - share);
     if (share > 0) spectrum[below + 1] += power * share;
   }
-  return normalised(spectrum, "the light's list of lines", band);
+  return normalised(spectrum, "the light's list of lines", range);
 }
 
 const std::vector<std::string>& colorchecker_names() { return colorchecker().columns; }
 
-Spectrum colorchecker_patch(const std::string& name, Band band) {
-  return held(column(colorchecker(), "ColorChecker patch", name), band);
+Spectrum colorchecker_patch(const std::string& name, SpectralRange range) {
+  return held(column(colorchecker(), "ColorChecker patch", name), range);
 }
 
-Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance, Band band) {
+Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance, SpectralRange range) {
   for (const auto& [nm, value] : nm_reflectance)
     if (!(value >= 0 && value <= 1))
       throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "expected 0 to 1");
-  return held(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})), band);
+  return held(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})), range);
 }
 
 Spectrum constant_spectrum(double value) {

@@ -41,16 +41,18 @@ Cells visible_cells() {
 
 } // namespace
 
-const Cells& cells(Band band) {
+const Cells& cells(SpectralRange range) {
   static const Cells visible = visible_cells(), solar = solar_cells();
-  return band == Band::visible ? visible : solar;
+  return range == SpectralRange::visible ? visible : solar;
 }
 
-const char* text_of(Band band) { return band == Band::visible ? "380 to 780 nm" : "280 to 4000 nm"; }
+const char* text_of(SpectralRange range) {
+  return range == SpectralRange::visible ? "380 to 780 nm" : "280 to 4000 nm";
+}
 
-Spectrum rebinned(const Spectrum& visible, Band band) {
-  if (band == Band::visible) return visible;
-  const Cells& to = cells(band);
+Spectrum rebinned(const Spectrum& visible, SpectralRange range) {
+  if (range == SpectralRange::visible) return visible;
+  const Cells& to = cells(range);
   Spectrum made{};
   for (std::size_t i = 0; i < made.size(); ++i) {
     const double low = to.nm[i] - to.width_nm[i] / 2, high = to.nm[i] + to.width_nm[i] / 2;

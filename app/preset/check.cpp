@@ -173,10 +173,9 @@ void check_meter(const Meter& m, std::size_t index, const Scene& scene, const Wh
     if (m.type == Meter::Type::plane) check_up(m.up, m.normal, child(pointer, "up"), where);
   }
   const bool of_directions = m.type == Meter::Type::goniometer;
-  if (is_intensity(m.unit) != of_directions)
-    throw bad_input(at("unit"), fmt::format("is {}", word(m.unit)),
-                    of_directions ? "expected cd or W/sr for a goniometer" : "expected a unit of light on an area",
-                    of_directions ? "" : "intensity is for meters of type goniometer");
+  if (is_intensity(m.unit) && !of_directions)
+    throw bad_input(at("unit"), fmt::format("is {}", word(m.unit)), "expected a unit of light on an area",
+                    "intensity is for meters of type goniometer");
   if (m.threshold && quantity_in(*m.threshold) && is_intensity(quantity_in(*m.threshold)->unit) != of_directions)
     throw bad_input(at("threshold"), fmt::format("is {}", in_quotes(*m.threshold)),
                     of_directions ? "expected cd or W/sr for a goniometer" : "expected a unit of light on an area");

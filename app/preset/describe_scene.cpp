@@ -274,7 +274,6 @@ void describe(Fields& v, Meter& m) {
     v.field("up", "Where the plane C = 0 is, as far as the direction allows.", m.zero, {.bounds = position_bounds});
     v.field("step_deg", "About the angle between its directions.", m.step_deg,
             {.unit = "degrees", .bounds = within(0.5, 30)});
-    if (m.unit == Meter::Unit::watts) m.unit = Meter::Unit::candela;
   }
   if (m.type == Type::plane) {
     v.field("up", "What is up in its map.", m.up, {.bounds = position_bounds});
@@ -286,9 +285,15 @@ void describe(Fields& v, Meter& m) {
   else if (m.type != Type::goniometer)
     v.field("cell", "The edge of a cell; null: a 64th of the longest edge.", m.cell,
             {.unit = length_unit, .bounds = length_bounds});
-  v.field("unit", "Of its map; it says whether watts or lux decide where the peak is and when it has enough.", m.unit);
-  v.field("threshold", "A value with its unit, such as \"2500 W/m^2\": the share of the area above it is told.",
-          m.threshold, {.text = Text::line});
+  v.field(
+      "unit",
+      "Of its map; it says whether watts or lux decide where the peak is and when it has enough. A goniometer has W/sr "
+      "for units of watts, and cd for those of lux.",
+      m.unit);
+  v.field(
+      "threshold",
+      "A value with its unit, such as \"2500 W/m^2\": the share of the area, or of the directions, above it is told.",
+      m.threshold, {.text = Text::line});
   v.field("until_percent",
           "It has measured enough where the 95 % intervals of mean and peak are no wider than this each way.",
           m.until_percent, {.unit = "%", .bounds = within(0.01, 100)});

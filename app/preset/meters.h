@@ -23,6 +23,12 @@ constexpr bool is_intensity(Meter::Unit unit) {
   return unit == Meter::Unit::candela || unit == Meter::Unit::watts_per_steradian;
 }
 
+/// The unit of its numbers: a goniometer's watts and lumens are for a steradian.
+constexpr Meter::Unit unit_of(const Meter& meter) {
+  if (meter.type != Meter::Type::goniometer) return meter.unit;
+  return is_luminous(meter.unit) ? Meter::Unit::candela : Meter::Unit::watts_per_steradian;
+}
+
 /// W/m^2, lx, W/sr or cd in one of a unit.
 constexpr double size_of(Meter::Unit unit) {
   return unit == Meter::Unit::watts || unit == Meter::Unit::lux || is_intensity(unit) ? 1 : 1000; // a sun: 1,000

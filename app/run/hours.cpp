@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <numeric>
 
 namespace nephroid::run {
 namespace {
@@ -30,7 +29,8 @@ std::string every_day(int every) { return every == 1 ? "each day" : fmt::format(
 
 std::string year_of(const preset::PlaceAndTime& place) { return place.date.substr(0, 4); }
 
-double sum_of(const optics::Spectrum& spectrum) { return std::accumulate(spectrum.begin(), spectrum.end(), 0.0); }
+/// What an hour stands for where so many days of all are taken.
+double weight_of(std::size_t all, std::size_t taken) { return static_cast<double>(all) / static_cast<double>(taken); }
 
 } // namespace
 
@@ -42,10 +42,11 @@ Hours hours_of_day(const preset::PlaceAndTime& place) {
 
 Hours hours_of_year(const preset::PlaceAndTime& place, int every) {
   const std::string year = year_of(place);
-  Hours hours{.about = every_day(every) + " of " + year, .place = place, .weight_h = static_cast<double>(every)};
+  Hours hours{.about = every_day(every) + " of " + year, .place = place};
   const int first = preset::days_since_2000(year + "-01-01").value(),
             last = preset::days_since_2000(year + "-12-31").value();
   for (int day = first; day <= last; day += every) add_day(hours, date_of(day));
+  hours.weight_h = weight_of(static_cast<std::size_t>(last - first + 1), hours.hours.size() / 24);
   return hours;
 }
 
@@ -54,17 +55,22 @@ Hours hours_of_weather(const scene::Weather& weather, const preset::PlaceAndTime
               .place = {.latitude_deg = weather.latitude_deg,
                         .longitude_deg = weather.longitude_deg,
                         .date = place.date,
-                        .utc_offset_h = weather.utc_offset_h},
-              .weight_h = static_cast<double>(every)};
+                        .utc_offset_h = weather.utc_offset_h}};
+  const std::size_t days = weather.hours.size() / 24, step = static_cast<std::size_t>(every);
+  hours.weight_h = weight_of(days, (days + step - 1) / step);
   for (std::size_t i = 0; i < weather.hours.size(); ++i) {
     const scene::WeatherHour& hour = weather.hours[i];
-    if (i / 24 % static_cast<std::size_t>(every) != 0) continue;
-    const std::string date = fmt::format("{}-{:02}-{:02}", year_of(place), hour.month, hour.day);
-    if (!preset::days_since_2000(date)) continue; // 29 February, where the preset's year has none
-    if (hour.direct_w && hour.diffuse_w)
-      hours.hours.push_back({date, hour.hour, hour.direct_w, hour.diffuse_w});
-    else
+    if (i / 24 % step != 0) continue;
+    preset::PlaceAndTime then = hours.place;
+    then.date = fmt::format("{}-{:02}-{:02}", year_of(place), hour.month, hour.day);
+    then.hour = hour.hour;
+    if (!preset::days_since_2000(then.date)) continue; // 29 February, where the preset's year has none
+    if (!hour.direct_w || !hour.diffuse_w)
       ++hours.missing;
+    else if (scene::sun_place(then).elevation_deg <= 0)
+      hours.twilight += *hour.direct_w + *hour.diffuse_w > 0 ? 1 : 0;
+    else
+      hours.hours.push_back({then.date, hour.hour, hour.direct_w, hour.diffuse_w});
   }
   return hours;
 }
@@ -75,14 +81,15 @@ preset::Environment sky_of(const preset::Environment& sky, const preset::PlaceAn
   made.place->date = hour.date;
   made.place->hour = hour.hour;
   if (!hour.direct_w || scene::is_night(made)) return made;
-  const scene::ClearSky clear = scene::clear_sky_of(made, optics::Band::solar);
-  made.sun_scale = *hour.direct_w / sum_of(clear.direct);
-  made.radiance = *hour.diffuse_w / sum_of(clear.diffuse);
+  const scene::ClearSky clear = scene::clear_sky_of(made, optics::SpectralRange::solar);
+  made.sun_scale = *hour.direct_w / optics::sum_of(clear.direct);
+  made.radiance = *hour.diffuse_w / optics::sum_of(clear.diffuse);
+  made.lights = true;
   return made;
 }
 
 bool is_dark(const preset::Environment& sky) {
-  return scene::is_night(sky) || (sky.sun_scale == 0 && (sky.radiance == 0 || !sky.lights));
+  return scene::is_night(sky) || (sky.sun_scale == 0 && sky.radiance == 0);
 }
 
 } // namespace nephroid::run

@@ -17,12 +17,13 @@ struct Hour {
   std::optional<double> direct_w, diffuse_w; ///< W/m^2 as scene::WeatherHour has them; nothing: a clear sky's
 };
 
-/// A series of hours at a place. Each stands for `hours` of the time that the series is of.
+/// A series of hours at a place. Each stands for `weight_h` of the time that the series is of.
 struct Hours {
   std::string about; ///< "2026-06-21", "every 7th day of 2026", "every 7th day of London.epw"
   preset::PlaceAndTime place;
   double weight_h = 1;
-  int missing = 0; ///< hours that a weather file has no data for; they are left out
+  int missing = 0;  ///< hours that a weather file has no data for; they are left out
+  int twilight = 0; ///< hours with light in the file whose sun is below the horizon in their middle; they are left out
   std::vector<Hour> hours = {};
 };
 
@@ -33,11 +34,11 @@ Hours hours_of_year(const preset::PlaceAndTime& place, int every);
 /// The hours of every `every`th day of the weather, in the year of `place`. Its place is the weather's.
 Hours hours_of_weather(const scene::Weather& weather, const preset::PlaceAndTime& place, int every);
 
-/// The sky of an hour. sky: has a place. It gives what the hour says, whatever its radiance and sun_scale, or a clear
-/// sky's.
+/// The sky of an hour. sky: has a place. Of weather it gives what the hour says, and is a light; else it is as bright
+/// as a clear one, times its radiance and sun_scale.
 preset::Environment sky_of(const preset::Environment& sky, const preset::PlaceAndTime& place, const Hour& hour);
 
-/// Whether a sky gives no light at all.
+/// Whether neither the sun nor the sky has light.
 bool is_dark(const preset::Environment& sky);
 
 } // namespace nephroid::run

@@ -20,10 +20,12 @@ namespace {
 /// always takes it for one.
 scene::Scene lit_scene(const Prepared& prepared) {
   const preset::Preset& preset = prepared.preset;
-  const optics::Band band = scene::reaches_beyond_visible(preset) ? optics::Band::solar : optics::Band::visible;
+  const optics::SpectralRange range =
+      scene::reaches_beyond_visible(preset) ? optics::SpectralRange::solar : optics::SpectralRange::visible;
   const bool is_sky = preset.scene.environment && preset.scene.environment->type == preset::Environment::Type::sky;
-  scene::Scene scene = is_sky || band != optics::Band::visible ? scene::in_band(prepared.loaded->scene, preset, band)
-                                                               : prepared.loaded->scene;
+  scene::Scene scene = is_sky || range != optics::SpectralRange::visible
+                           ? scene::in_range(prepared.loaded->scene, preset, range)
+                           : prepared.loaded->scene;
   const bool decides = std::any_cast<photons::Settings>(&prepared.preset.settings.value()) != nullptr;
   if (decides || !scene.environment || scene.environment->lights || scene.environment->is_black()) return scene;
   scene.environment->lights = true;
@@ -59,9 +61,10 @@ Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, co
     throw bad_input(where, "is empty: there is nothing to measure", "expected a meter",
                     "add one: --set 'scene.meters=[{\"type\":\"surface\",\"name\":\"floor\",\"object\":\"floor\"}]'");
   const scene::Scene scene = lit_scene(prepared);
-  band_ = scene.band;
-  if (band_ != optics::Band::visible) notes_ = scene.warnings;
-  if (scene.environment && !scene.environment->about.empty()) notes_.push_back(scene.environment->about);
+  range_ = scene.range;
+  if (scene.environment && !scene.environment->about.empty()) notes_.push_back(sky_ = scene.environment->about);
+  if (scene.environment && !scene.environment->lights && !scene.environment->is_black())
+    notes_.push_back("what is behind the scene does not light it: scene.environment.lights is false");
   for (std::size_t i = 0; i < preset.scene.meters.size(); ++i) {
     const preset::Meter& meter = preset.scene.meters[i];
     if (!only.empty() && meter.name != only) continue;

@@ -36,16 +36,19 @@ public:
   /// Whether all have the intervals that they ask for, or `percent` where they ask for none.
   bool is_enough(double percent) const;
   double work_seconds() const;
-  /// Of what wavelengths the numbers are: of the solar band where a light reaches beyond the visible.
-  optics::Band band() const { return band_; }
+  /// Of what wavelengths the numbers are: of the solar range where a light reaches beyond the visible.
+  optics::SpectralRange range() const { return range_; }
   /// What the light is, what of it had to be assumed, and what the plans say besides, a line each, once.
   std::vector<std::string> notes() const;
+  /// What its sky is; one of the notes. Empty: there is none.
+  const std::string& sky() const { return sky_; }
   const std::vector<MeterInHand>& meters() const { return meters_; }
   const Prepared& prepared() const { return prepared_; }
 
 private:
   Prepared prepared_;
-  optics::Band band_ = optics::Band::visible;
+  optics::SpectralRange range_ = optics::SpectralRange::visible;
+  std::string sky_;
   std::vector<std::string> notes_;
   std::vector<MeterInHand> meters_;
   std::size_t next_ = 0;

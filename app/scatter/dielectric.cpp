@@ -29,9 +29,9 @@ constinit const Kind kinds::dielectric{
           loading.roughness(made);
           loading.curve(from.dispersion, where / "dispersion",
                         [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
-                          made.n = optics::sample_n(curve, outside, loading.band);
+                          made.n = optics::sample_n(curve, outside, loading.range);
                           if (from.absorption && curve.k && !from.thin)
-                            made.k = optics::sample_k(curve, outside, loading.band);
+                            made.k = optics::sample_k(curve, outside, loading.range);
                         });
           made.absorbs = std::any_of(made.k.begin(), made.k.end(), [](double k) { return k > 0; });
           made.tint = loading.spectrum(from.tint, "tint");
@@ -47,7 +47,7 @@ constinit const Kind kinds::dielectric{
           made.coating_nm = from.coating->thickness_nm;
           loading.curve(from.coating->dispersion, where / "coating" / "dispersion",
                         [&](const optics::DispersionCurve& curve, optics::Extrapolation outside) {
-                          made.coating_n = optics::sample_n(curve, outside, loading.band);
+                          made.coating_n = optics::sample_n(curve, outside, loading.range);
                         });
         },
     .add_rows =
@@ -62,7 +62,7 @@ constinit const Kind kinds::dielectric{
           row.is_thin = material.thin;
           if (!is_coated(material)) return;
           row.surface_first = rows.data(material.coating_n);
-          optics::Spectrum waves = optics::cells(material.band).nm;
+          optics::Spectrum waves = optics::cells(material.range).nm;
           for (double& nm : waves) nm = material.coating_nm / nm;
           rows.data(waves);
         },

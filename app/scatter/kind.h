@@ -17,7 +17,7 @@ struct Loading {
   const preset::Material& from;
   const FileFinder& finder;
   const Location& where;
-  optics::Band band;
+  optics::SpectralRange range;
   std::string owner; ///< "material 'wall'"
   std::vector<std::string>& warnings;
 
@@ -40,7 +40,7 @@ struct Loading {
 struct Rows {
   DeviceMaterials& tables;
   shared::DeviceMaterial& row;
-  optics::Band band;
+  optics::SpectralRange range;
 
   /// Adds a row of losses and returns its number; -1 for none.
   int loss(std::span<const double> coefficients);

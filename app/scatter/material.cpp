@@ -39,18 +39,21 @@ void Loading::curve(const preset::Dispersion& dispersion, const Location& field,
   const optics::DispersionCurve data = make_curve(dispersion, finder, field);
   const optics::Extrapolation outside = outside_policy(dispersion.outside);
   at(field, [&] { return sample(data, outside), 0; });
-  if (const std::string note = optics::outside_note(data, outside, band); !note.empty()) warn(note);
+  if (const std::string note = optics::outside_note(data, outside, range); !note.empty()) warn(note);
 }
 
 optics::Spectrum Loading::spectrum(const preset::Reflectance& reflectance, const char* field) const {
-  if (band != optics::Band::visible && reflectance.type != preset::Reflectance::Type::constant)
+  if (range != optics::SpectralRange::visible && reflectance.type != preset::Reflectance::Type::constant)
     warn(fmt::format("its {} is known from {} alone; beyond, the values at the ends are taken", field,
-                     text_of(optics::Band::visible)));
-  return make_reflectance(reflectance, where / field, band);
+                     text_of(optics::SpectralRange::visible)));
+  return make_reflectance(reflectance, where / field, range);
 }
 
 std::shared_ptr<const Texture> Loading::picture(const std::optional<preset::Texture>& texture, Texels texels,
                                                 const char* field) const {
+  if (texture && texels == Texels::colours && range != optics::SpectralRange::visible)
+    warn(fmt::format("the colours of its {} are known from {} alone; beyond, the values at the ends are taken", field,
+                     text_of(optics::SpectralRange::visible)));
   return texture
              ? std::make_shared<const Texture>(make_texture(*texture, texels, finder, where / field, owner, warnings))
              : nullptr;
@@ -74,8 +77,8 @@ void Loading::metal(Material& material) const {
     if (!data.k)
       throw bad_input(field, fmt::format("{} has no k", data.name), "expected a metal's n and k",
                       "take gold, silver, copper, aluminium, brass, or a file of refractiveindex.info");
-    material.n = optics::sample_n(data, outside, band);
-    material.k = optics::sample_k(data, outside, band);
+    material.n = optics::sample_n(data, outside, range);
+    material.k = optics::sample_k(data, outside, range);
   });
   if (const double most = std::ranges::max(material.k); most < 0.01)
     warn(fmt::format("its k is at most {:.2g}, which is no metal's: a conductor absorbs what a "
@@ -94,12 +97,12 @@ void Loading::coat_index(Material& material) const {
 }
 
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
-                       const Location& where, std::vector<std::string>& warnings, optics::Band band) {
+                       const Location& where, std::vector<std::string>& warnings, optics::SpectralRange range) {
   Material made;
   made.name = name;
   made.type = material.type;
-  made.band = band;
-  kind_of(material.type).load({material, finder, where, band, fmt::format("material '{}'", name), warnings}, made);
+  made.range = range;
+  kind_of(material.type).load({material, finder, where, range, fmt::format("material '{}'", name), warnings}, made);
   return made;
 }
 

@@ -32,8 +32,8 @@ struct Material {
   optics::Spectrum tint{};                          ///< the part of the light that passes its surface
   bool thin = false;                                ///< a pane without thickness
   double alpha = 0;                                 ///< of GGX, where no texture makes it less; 0: polished
-  optics::Band band = optics::Band::visible;        ///< of its spectra
-  double coating_nm = 0;                            ///< thickness of a film with interference; 0: none
+  optics::SpectralRange range = optics::SpectralRange::visible; ///< of its spectra
+  double coating_nm = 0;                                        ///< thickness of a film with interference; 0: none
   optics::Spectrum coating_n{};
 };
 
@@ -91,7 +91,7 @@ std::vector<double> loss_at_surface(const Material& material);
 /// wanted outside the data's range, and for what a texture does not say.
 Material make_material(const std::string& name, const preset::Material& material, const FileFinder& finder,
                        const Location& where, std::vector<std::string>& warnings,
-                       optics::Band band = optics::Band::visible);
+                       optics::SpectralRange range = optics::SpectralRange::visible);
 
 /// What materials put into the tables of a scene (kernels/tracing/scene_table_types.h).
 struct DeviceMaterials {

@@ -22,7 +22,7 @@ std::vector<double> loss_inside(const Material& material) {
   std::vector<double> a;
   if (!material.absorbs) return a;
   for (std::size_t w = 0; w < optics::wavelength_count; ++w)
-    a.push_back(4 * std::numbers::pi * material.k[w] / (optics::cells(material.band).nm[w] * 1e-9));
+    a.push_back(4 * std::numbers::pi * material.k[w] / (optics::cells(material.range).nm[w] * 1e-9));
   return a;
 }
 
@@ -58,7 +58,7 @@ int Rows::colour(const optics::Spectrum& colour, double factor, bool is_textured
   };
   const int first = rows_of(tables.reflectance);
   add(optics::constant_spectrum(1));
-  if (is_textured) std::ranges::for_each(optics::primary_reflectances(band), add);
+  if (is_textured) std::ranges::for_each(optics::primary_reflectances(range), add);
   return first;
 }
 
@@ -83,7 +83,7 @@ DeviceMaterials device_materials(const std::vector<Material>& materials, const s
     row.roughness_texture = number(material.roughness_texture);
     row.normal_map = number(material.normal_map);
     row.splits_wavelengths = splits_wavelengths(material);
-    Rows rows{tables, row, material.band};
+    Rows rows{tables, row, material.range};
     kind_of(material.type).add_rows(material, rows);
   }
   return tables;

@@ -101,25 +101,27 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
   });
 }
 
-optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where, optics::Band band) {
+optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where,
+                                     optics::SpectralRange range) {
   using Type = preset::LightSpectrum::Type;
   return at(where, [&] {
     switch (spectrum.type) {
-    case Type::blackbody: return optics::blackbody(spectrum.temperature_k, band);
-    case Type::lines: return optics::light_lines(spectrum.table, band);
-    case Type::table: return optics::light_table(spectrum.table, band);
+    case Type::blackbody: return optics::blackbody(spectrum.temperature_k, range);
+    case Type::lines: return optics::light_lines(spectrum.table, range);
+    case Type::table: return optics::light_table(spectrum.table, range);
     case Type::illuminant: break;
     }
-    return optics::illuminant(spectrum.illuminant, band);
+    return optics::illuminant(spectrum.illuminant, range);
   });
 }
 
-optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where, optics::Band band) {
+optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where,
+                                  optics::SpectralRange range) {
   using Type = preset::Reflectance::Type;
   return at(where, [&] {
     switch (reflectance.type) {
-    case Type::patch: return optics::colorchecker_patch(reflectance.patch, band);
-    case Type::table: return optics::reflectance_table(reflectance.table, band);
+    case Type::patch: return optics::colorchecker_patch(reflectance.patch, range);
+    case Type::table: return optics::reflectance_table(reflectance.table, range);
     case Type::constant: break;
     }
     return optics::constant_spectrum(reflectance.value);

@@ -54,10 +54,10 @@ optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const F
                                    const Location& where);
 /// Its part of 380..780 nm sums to 1 (optics/spectrum.h).
 optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Location& where,
-                                     optics::Band band = optics::Band::visible);
+                                     optics::SpectralRange range = optics::SpectralRange::visible);
 /// Each value in 0..1.
 optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Location& where,
-                                  optics::Band band = optics::Band::visible);
+                                  optics::SpectralRange range = optics::SpectralRange::visible);
 
 /// Whether the light has power, by its data, beyond 380..780 nm.
 bool reaches_beyond(const preset::LightSpectrum& spectrum);

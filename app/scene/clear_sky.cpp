@@ -64,7 +64,8 @@ Air air_of(double turbidity) {
   return air;
 }
 
-ClearSky clear_sky(double elevation_deg, const Air& air, double albedo, double distance_factor, optics::Band band) {
+ClearSky clear_sky(double elevation_deg, const Air& air, double albedo, double distance_factor,
+                   optics::SpectralRange range) {
   static const optics::Table table = optics::read_table("bird-riordan");
   const double sine = std::sin(elevation_deg * degree);
   const Masses mass = masses_of(elevation_deg, air.pressure);
@@ -90,7 +91,7 @@ ClearSky clear_sky(double elevation_deg, const Air& air, double albedo, double d
     direct.push_back({table.nm[i], beam});
     diffuse.push_back({table.nm[i], (rayleigh + haze + again) * ultraviolet});
   }
-  return {optics::integrals_of_table(direct, band), optics::integrals_of_table(diffuse, band)};
+  return {optics::integrals_of_table(direct, range), optics::integrals_of_table(diffuse, range)};
 }
 
 double distance_factor(double day_of_year) {

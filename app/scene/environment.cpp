@@ -152,13 +152,13 @@ bool Environment::is_black() const {
 }
 
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Location& where,
-                             std::vector<std::string>& warnings, optics::Band band) {
+                             std::vector<std::string>& warnings, optics::SpectralRange range) {
   Environment result;
   if (environment.type == preset::Environment::Type::file) {
     result = read_environment(finder.find(environment.file, where / "file"), environment.radiance, warnings);
     result.rotate_deg = environment.rotate_deg;
   } else if (environment.type == preset::Environment::Type::sky) {
-    result = make_sky(environment, band);
+    result = make_sky(environment, range);
     mix_colours_beyond_srgb(result.rgb, "sky", warnings);
     result.rotate_deg = environment.rotate_deg;
   } else {
@@ -166,7 +166,7 @@ Environment make_environment(const preset::Environment& environment, const FileF
     for (const double value : environment.colour) result.rgb.push_back(static_cast<float>(value));
     check_texels(result.rgb, 1, where / "colour");
   }
-  if (environment.type != preset::Environment::Type::sky) result.primaries = optics::primary_spectra(band);
+  if (environment.type != preset::Environment::Type::sky) result.primaries = optics::primary_spectra(range);
   result.radiance = environment.radiance;
   result.lights = environment.lights && !result.is_black();
   return result;

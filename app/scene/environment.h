@@ -39,7 +39,8 @@ struct Environment {
 /// thousandth of all light in sum become 0. Appends to warnings where there are such, where the picture's shape is
 /// not 2 : 1, and what the file says and is not obeyed.
 Environment make_environment(const preset::Environment& environment, const FileFinder& finder, const Location& where,
-                             std::vector<std::string>& warnings, optics::Band band = optics::Band::visible);
+                             std::vector<std::string>& warnings,
+                             optics::SpectralRange range = optics::SpectralRange::visible);
 
 /// What photons are drawn by: (r + g + b) / 3 of a texel, before Environment::radiance.
 double grey(const Environment& environment, std::size_t texel);

@@ -212,6 +212,7 @@ void make_goniometer(const preset::Meter& meter, const Scene& scene, const Locat
   builder.finish(lift * edge);
   MeterSurface& surface = builder.meter;
   surface.middle = middle;
+  surface.rounding = 2 / far;
   const glm::dvec3 down = glm::normalize(to_dvec3(meter.direction)),
                    zero = perpendicular_up(meter.zero, down, where / "up");
   surface.directions = {zero, glm::cross(zero, down), down};

@@ -160,7 +160,8 @@ FileFinder finder_of(const preset::Preset& preset) {
 void add_materials(const preset::Preset& preset, const FileFinder& finder, Scene& scene) {
   const Location where = Location(preset.source) / "scene" / "materials";
   for (const auto& [name, material] : preset.scene.materials)
-    scene.materials.push_back(scatter::make_material(name, material, finder, where / name, scene.warnings, scene.band));
+    scene.materials.push_back(
+        scatter::make_material(name, material, finder, where / name, scene.warnings, scene.range));
 }
 
 /// The environment is one of them. The objects stand.
@@ -169,8 +170,8 @@ void add_lights(const preset::Preset& preset, const FileFinder& finder, Scene& s
   for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
     add_light(preset.scene.lights[i], finder, where / "lights" / i, scene);
   if (const auto& environment = preset.scene.environment) {
-    if (std::optional<Light> sun = make_sun(*environment, scene.band)) scene.lights.push_back(std::move(*sun));
-    scene.environment = make_environment(*environment, finder, where / "environment", scene.warnings, scene.band);
+    if (std::optional<Light> sun = make_sun(*environment, scene.range)) scene.lights.push_back(std::move(*sun));
+    scene.environment = make_environment(*environment, finder, where / "environment", scene.warnings, scene.range);
     if (scene.environment->lights) scene.lights.push_back(make_environment_light(*scene.environment));
   }
   warn_of_faint_lights(scene);
@@ -185,9 +186,9 @@ bool reaches_beyond_visible(const preset::Preset& preset) {
                              [](const preset::Light& light) { return scatter::reaches_beyond(light.spectrum); });
 }
 
-Scene in_band(const Scene& scene, const preset::Preset& preset, optics::Band band) {
+Scene in_range(const Scene& scene, const preset::Preset& preset, optics::SpectralRange range) {
   Scene made = scene;
-  made.band = band;
+  made.range = range;
   made.materials.clear();
   made.lights.clear();
   made.environment.reset();

@@ -113,8 +113,8 @@ struct Camera {
 struct Scene {
   std::string source; ///< the preset's file, for messages
   double metres_per_unit = 1;
-  optics::Band band = optics::Band::visible; ///< of all its spectra
-  glm::dvec3 origin{0};                      ///< preset coordinates of the scene's (0, 0, 0)
+  optics::SpectralRange range = optics::SpectralRange::visible; ///< of all its spectra
+  glm::dvec3 origin{0};                                         ///< preset coordinates of the scene's (0, 0, 0)
   Camera camera;
   std::vector<scatter::Material> materials;
   std::vector<Object> objects;
@@ -145,13 +145,14 @@ Scene load_scene(const preset::Preset& preset, const Watch& watch = {});
 /// Whether a light of the preset has power beyond 380..780 nm, as far as it is known: the sun, glowing bodies, lines
 /// and tables. What is known by its colour alone, and an illuminant, is taken to have none.
 bool reaches_beyond_visible(const preset::Preset& preset);
-/// The scene of the preset in another band: its materials, lights and environment are loaded anew, with the warnings
+/// The scene of the preset in another range: its materials, lights and environment are loaded anew, with the warnings
 /// that they give; meshes are not.
-Scene in_band(const Scene& scene, const preset::Preset& preset, optics::Band band);
+Scene in_range(const Scene& scene, const preset::Preset& preset, optics::SpectralRange range);
 
 /// The sun of a sky (sky.h, clear_sky.h): a disc of `sun_angular_diameter_deg`. Nothing where the environment has none,
 /// and at night.
-std::optional<Light> make_sun(const preset::Environment& environment, optics::Band band = optics::Band::visible);
+std::optional<Light> make_sun(const preset::Environment& environment,
+                              optics::SpectralRange range = optics::SpectralRange::visible);
 
 /// Directional light of all directions together: its irradiance is that on a sphere, over the area of the sphere's
 /// shadow.

@@ -130,13 +130,13 @@ double watts_of(const Colour& rgb) {
   return sum;
 }
 
-double sum_of(const optics::Spectrum& spectrum) { return std::accumulate(spectrum.begin(), spectrum.end(), 0.0); }
+using optics::sum_of;
 
-/// Gives a sky whose upper half is the visible one's colours the light of Bird and Riordan's: its luminances, grey, so
-/// that a level plane has 1 W/m^2 of them, times one spectrum. Its lower half is the ground.
+/// Gives a sky whose upper half has the colours of the visible one the light of Bird and Riordan's: its luminances, so
+/// that a level plane has 1 of them, times one spectrum. Its lower half is the ground.
 void as_clear_sky(Environment& map, const preset::Environment& sky, double elevation_deg, double sine,
-                  optics::Band band) {
-  const ClearSky light = clear_sky_of(sky, band);
+                  optics::SpectralRange range) {
+  const ClearSky light = clear_sky_of(sky, range);
   const double direct = sky.sun_scale * sum_of(light.direct), diffuse = sum_of(light.diffuse);
   const std::size_t texels = map.rgb.size() / 3, horizon = texels / 2;
   double level = 0;
@@ -145,20 +145,20 @@ void as_clear_sky(Environment& map, const preset::Environment& sky, double eleva
     const double sine_of_row = std::sin(degree * (90 - 180 * (row + 0.5) / map.height));
     const float luminance =
         static_cast<float>(optics::linear_srgb_to_xyz({map.rgb[3 * i], map.rgb[3 * i + 1], map.rgb[3 * i + 2]})[1]);
-    for (std::size_t c = 0; c < 3; ++c) map.rgb[3 * i + c] = luminance;
+    map.rgb[3 * i] = luminance;
     level += luminance * sine_of_row * texel_steradians(map, row);
   }
-  // The ground is grey of one albedo; it has the sky's spectrum here, not the sun's.
-  const double on_ground = 1 + (sky.radiance > 0 ? direct * sine / (diffuse * sky.radiance) : 0);
-  for (std::size_t i = 0; i < texels; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      map.rgb[3 * i + c] = i < horizon ? static_cast<float>(map.rgb[3 * i + c] / level)
-                                       : static_cast<float>(sky.albedo / pi * on_ground);
-  for (optics::Spectrum& primary : map.primaries)
-    for (std::size_t w = 0; w < primary.size(); ++w) primary[w] = light.diffuse[w] / 3;
+  // The first "primary" is the light of the sky, the second one that of the sun, which the ground sends back as well.
+  const double of_sun = sky.radiance > 0 ? sky.sun_scale * sine / sky.radiance : 0;
+  for (std::size_t i = 0; i < texels; ++i) {
+    map.rgb[3 * i] = static_cast<float>(i < horizon ? map.rgb[3 * i] / level : sky.albedo / pi);
+    map.rgb[3 * i + 1] = static_cast<float>(i < horizon ? 0 : sky.albedo / pi * of_sun);
+    map.rgb[3 * i + 2] = 0;
+  }
+  map.primaries = {light.diffuse, light.direct, optics::Spectrum{}};
   map.about = fmt::format("sun and sky by Bird and Riordan (1986): the sun, {:.2f} degrees high, gives a plane that "
                           "faces it {:.1f} W/m^2 of {}, the sky a level one {:.1f}",
-                          elevation_deg, direct, text_of(band), sky.radiance * diffuse);
+                          elevation_deg, direct, text_of(range), sky.radiance * diffuse);
 }
 
 } // namespace
@@ -211,16 +211,16 @@ optics::Colour sky_xyy(double zenith_deg, double from_sun_deg, double sun_zenith
           kcd * 1000 / 683 * over_zenith(luminance_terms, t, zenith, from_sun, s)};
 }
 
-ClearSky clear_sky_of(const preset::Environment& sky, optics::Band band) {
+ClearSky clear_sky_of(const preset::Environment& sky, optics::SpectralRange range) {
   const double distance = sky.place ? distance_factor(day_of_year(sky.place->date)) : 1;
-  return clear_sky(place_of(sky).elevation_deg, air_of(sky.turbidity), sky.albedo, distance, band);
+  return clear_sky(place_of(sky).elevation_deg, air_of(sky.turbidity), sky.albedo, distance, range);
 }
 
 bool is_night(const preset::Environment& environment) {
   return environment.type == preset::Environment::Type::sky && !(place_of(environment).elevation_deg > 0);
 }
 
-Environment make_sky(const preset::Environment& sky, optics::Band band) {
+Environment make_sky(const preset::Environment& sky, optics::SpectralRange range) {
   const SunPlace place = place_of(sky);
   const glm::dvec3 to_sun = to_sky(place);
   Environment result;
@@ -244,8 +244,8 @@ Environment make_sky(const preset::Environment& sky, optics::Band band) {
         result.rgb[3 * static_cast<std::size_t>(row * sky_width + column) + c] = static_cast<float>(rgb[c]);
     }
   }
-  if (band != optics::Band::visible) {
-    as_clear_sky(result, sky, place.elevation_deg, to_sun.y, band);
+  if (range != optics::SpectralRange::visible) {
+    as_clear_sky(result, sky, place.elevation_deg, to_sun.y, range);
     return result;
   }
   const optics::Spectrum sun = sun_irradiance(place.elevation_deg, sky.turbidity);
@@ -262,14 +262,14 @@ Environment make_sky(const preset::Environment& sky, optics::Band band) {
   return result;
 }
 
-std::optional<Light> make_sun(const preset::Environment& sky, optics::Band band) {
+std::optional<Light> make_sun(const preset::Environment& sky, optics::SpectralRange range) {
   if (sky.type != preset::Environment::Type::sky || sky.sun_scale == 0 || is_night(sky)) return std::nullopt;
   const SunPlace place = place_of(sky);
   Light sun;
   sun.type = preset::Light::Type::directional;
   sun.direction = rotation({0, sky.rotate_deg, 0}) * -to_sky(place);
-  sun.spectrum = band == optics::Band::visible ? sun_irradiance(place.elevation_deg, sky.turbidity)
-                                               : clear_sky_of(sky, band).direct;
+  sun.spectrum = range == optics::SpectralRange::visible ? sun_irradiance(place.elevation_deg, sky.turbidity)
+                                                         : clear_sky_of(sky, range).direct;
   const double watts = sum_of(sun.spectrum);
   for (double& value : sun.spectrum) value /= watts;
   sun.irradiance_w_m2 = sky.sun_scale * watts;

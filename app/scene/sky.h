@@ -38,12 +38,13 @@ optics::Spectrum sun_irradiance(double elevation_deg, double turbidity);
 optics::Colour sky_xyy(double zenith_deg, double from_sun_deg, double sun_zenith_deg, double turbidity);
 
 /// The map of a sky without the sun's disc, before `rotate_deg`; colours beyond sRGB are in it. Texels below the
-/// horizon are the ground, lit by sky and sun. Black at night. In the solar band its light is Bird and Riordan's
-/// (clear_sky.h), grey, and spread over the sky as the luminance of the visible one is.
-Environment make_sky(const preset::Environment& environment, optics::Band band = optics::Band::visible);
+/// horizon are the ground, lit by sky and sun. Black at night. In the solar range its light is Bird and Riordan's
+/// (clear_sky.h), of one colour, and spread over the sky as the luminance of the visible one is.
+Environment make_sky(const preset::Environment& environment,
+                     optics::SpectralRange range = optics::SpectralRange::visible);
 
 /// What a clear sky, with its sun by day, gives before radiance and sun_scale.
-ClearSky clear_sky_of(const preset::Environment& sky, optics::Band band);
+ClearSky clear_sky_of(const preset::Environment& sky, optics::SpectralRange range);
 
 /// Whether it is a sky whose sun is below the horizon.
 bool is_night(const preset::Environment& environment);

@@ -83,6 +83,8 @@ Weather read_weather(const std::filesystem::path& file) {
     const int last = weather.hours.empty() ? 0 : static_cast<int>(weather.hours.back().hour + 0.5);
     if (hour != last % hours_of_day + 1)
       line.refuse(fmt::format("is of hour {} after hour {}", hour, last), "expected the hours 1 to 24 of each day");
+    if (!(line[1] >= 1 && line[1] <= 12 && line[2] >= 1 && line[2] <= 31))
+      line.refuse(fmt::format("is of day {} of month {}", line.text(2), line.text(1)), "expected a day of the year");
     weather.hours.push_back(
         {static_cast<int>(line[1]), static_cast<int>(line[2]), hour - 0.5, measured(line, 14), measured(line, 15)});
   }

@@ -145,7 +145,7 @@ void add_wavelength_cdf(const optics::ColourMatching& eye, const std::vector<con
   }
 }
 
-constexpr std::size_t middle_wavelength = 200; // 580 nm
+constexpr std::size_t middle_wavelength = 200; // 580 nm of the visible ones
 constexpr double jump_ratio = 8;
 
 /// The curves of all glass that disperses and that an object has, each once.
@@ -160,7 +160,7 @@ std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene) {
   return curves;
 }
 
-/// s at every wavelength, counted from 580 nm.
+/// s at every wavelength, counted from the middle one.
 Spectrum parameter(const scene::Scene& scene) {
   const std::vector<const Spectrum*> curves = dispersive_curves(scene);
   Spectrum s{};
@@ -226,7 +226,7 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
 }
 
 const optics::ColourMatching& response_of(const scene::Scene& scene) {
-  return scene.camera.meter ? optics::power_and_luminance(scene.band) : optics::cie_1931();
+  return scene.camera.meter ? optics::power_and_luminance(scene.range) : optics::cie_1931();
 }
 
 StretchParameter stretch_parameter(const scene::Scene& scene) {

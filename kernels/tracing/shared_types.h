@@ -21,7 +21,7 @@ struct alignas(8) uint2 {
 };
 #endif
 
-// 380..780 nm in steps of 1 nm: optics::wavelength_count.
+// optics::wavelength_count: 380..780 nm in steps of 1 nm, but for meters (optics/wavelength.h).
 #define WAVELENGTH_COUNT 401
 
 // At most this many dielectrics may enclose one point; they take 128 bits.

@@ -33,7 +33,7 @@ double sum(const optics::Spectrum& spectrum) { return std::accumulate(spectrum.b
 
 TEST(MeterHours, ALevelPlaneHasAllOfTheSunAndTheSky) {
   const preset::Preset p = london_preset();
-  const scene::ClearSky light = scene::clear_sky_of(*p.scene.environment, optics::Band::solar);
+  const scene::ClearSky light = scene::clear_sky_of(*p.scene.environment, optics::SpectralRange::solar);
   const double sine = std::sin(scene::sun_place(*p.scene.environment->place).elevation_deg * M_PI / 180);
   const Interval level = measured(p);
   const double right = sine * sum(light.direct) + sum(light.diffuse);
@@ -48,7 +48,7 @@ TEST(MeterHours, WhatIsAssumedBeyondTheVisibleIsSaid) {
   pane.reflectance.type = preset::Reflectance::Type::patch;
   pane.reflectance.patch = "red";
   const run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
-  EXPECT_EQ(metering.band(), optics::Band::solar);
+  EXPECT_EQ(metering.range(), optics::SpectralRange::solar);
   EXPECT_THAT(metering.notes(), Contains(HasSubstr("material 'pane': its reflectance is known from 380 to 780 nm")));
   EXPECT_THAT(metering.notes(), Contains(HasSubstr("sun and sky by Bird and Riordan")));
 }
@@ -61,10 +61,22 @@ TEST(MeterHours, LightThatEndsAtRedIsMeasuredAsItWas) {
   p.scene.lights[0].direction = {0, -1, 0};
   p.scene.lights[0].irradiance_w_m2 = 5;
   const run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
-  EXPECT_EQ(metering.band(), optics::Band::visible);
+  EXPECT_EQ(metering.range(), optics::SpectralRange::visible);
   p.scene.lights[0].spectrum.type = preset::LightSpectrum::Type::lines;
   p.scene.lights[0].spectrum.table = {{550, 1}, {1064, 3}};
   EXPECT_NEAR(measured(p).value, 20, 0.01) << "5 W/m^2 are of 380 to 780 nm";
+}
+
+// The ground sends back a part of the sun's light and of the sky's, each of its own colour.
+TEST(MeterHours, TheGroundHasTheColourOfWhatLightsIt) {
+  preset::Preset p = london_preset();
+  const auto lux = [&](double up) {
+    p.scene.meters[0].normal = {0, up, 0};
+    run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
+    while (metering.meters()[0].run->cycles() < 4 || !metering.meters()[0].reading) metering.advance();
+    return metering.meters()[0].reading->all().numbers(Quantity::illuminance).mean.value;
+  };
+  EXPECT_NEAR(lux(-1) / lux(1), 0.2, 0.001);
 }
 
 TEST(MeterHours, ADayHasNightsAndAYearItsDays) {
@@ -77,18 +89,24 @@ TEST(MeterHours, ADayHasNightsAndAYearItsDays) {
   EXPECT_TRUE(run::is_dark(sky(2)));
   EXPECT_FALSE(run::is_dark(sky(12)));
   EXPECT_EQ(year.hours.size(), 53u * 24);
+  for (const int every : {1, 7, 90, 300}) {
+    const run::Hours some = run::hours_of_year(place, every);
+    EXPECT_NEAR(some.weight_h * static_cast<double>(some.hours.size()), 365 * 24, 1e-6) << every;
+  }
   EXPECT_EQ(year.hours[24].date, "2026-01-08");
   EXPECT_EQ(year.hours.back().date, "2026-12-31");
 }
 
-/// An EPW file of one day, whose sun shines at 13:30 alone.
+/// An EPW file of one day, whose sun shines at 13:30 alone, and whose sky shines after sunset, too.
 std::string weather_of_a_day() {
   std::string text = "LOCATION,Somewhere,-,-,Made,0,51.5,0.0,1.0,10.0\n";
   for (int i = 0; i < 6; ++i) text += "COMMENT\n";
   text += "DATA PERIODS,1,1,Data,Sunday,1/1,12/31\n";
   for (int hour = 1; hour <= 24; ++hour)
     text += fmt::format("1999,6,21,{},60,?,20,10,50,101300,0,1400,300,500,{},{},0,0,0,0\n", hour, hour == 14 ? 640 : 0,
-                        hour == 14 ? 210 : 9999);
+                        hour == 14   ? 210
+                        : hour == 24 ? 3
+                                     : 9999);
   return text;
 }
 
@@ -107,7 +125,8 @@ TEST_F(WeatherFile, GivesItsHoursTheirSunAndSky) {
   const scene::Weather weather = scene::read_weather(folder_.path() / "a.epw");
   const preset::Preset p = london_preset();
   const run::Hours hours = run::hours_of_weather(weather, *p.scene.environment->place, 1);
-  EXPECT_EQ(hours.missing, 23);
+  EXPECT_EQ(hours.missing, 22);
+  EXPECT_EQ(hours.twilight, 1);
   ASSERT_EQ(hours.hours.size(), 1u);
   EXPECT_EQ(hours.hours[0].date, "2026-06-21");
   EXPECT_EQ(hours.hours[0].hour, 13.5);
@@ -126,6 +145,9 @@ TEST_F(WeatherFile, IsRefusedWithItsLine) {
   std::string gap = whole;
   gap.erase(gap.find("1999,6,21,7"), gap.find("1999,6,21,8") - gap.find("1999,6,21,7"));
   EXPECT_THAT(refusal(gap), HasSubstr("line 15: is of hour 8 after hour 6"));
+  std::string month = whole;
+  month.replace(month.find("1999,6,21,3"), 11, "1999,13,21,3");
+  EXPECT_THAT(refusal(month), HasSubstr("line 11: is of day 21 of month 13"));
   std::string word = whole;
   word.replace(word.find("640"), 3, "sun");
   EXPECT_THAT(refusal(word), HasSubstr("line 22: field 15 is \"sun\""));

@@ -129,7 +129,7 @@ meters::Reading measured(const preset::Preset& preset, std::int64_t cycles) {
 TEST(MeterRun, AClosedRoomKeepsTheLampsPower) {
   const meters::Reading reading = measured(room(0.5), 4);
   const Interval& total = reading.all().numbers(Quantity::irradiance).total;
-  EXPECT_NEAR(reading.area_m2, 24, 1e-5);
+  EXPECT_NEAR(reading.extent, 24, 1e-5);
   EXPECT_LT(total.half(), 0.02 * total.value);
   EXPECT_NEAR(total.value, 2, 2 * total.half()); // 5e-6 of all seeds are further off (Student's t of 7)
   double sum = 0;

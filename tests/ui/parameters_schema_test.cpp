@@ -102,7 +102,8 @@ protected:
     else if (pointer.ends_with("/place/date"))
       all = {"2026-06-21", "2000-02-29"};
     else if (pointer.ends_with("/meters/0/threshold"))
-      all = {"2500 W/m^2", "5 lx"};
+      all = owner.ends_with("goniometer") ? std::vector<std::string>{"20 cd", "5 W/sr"}
+                                          : std::vector<std::string>{"2500 W/m^2", "5 lx"};
     else if (pointer == "/animation/tracks/0/path")
       all = {"white"};
     else if (node["type"] == "string")

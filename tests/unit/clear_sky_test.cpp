@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solar band, and the light of a clear sky in it: against ASTM G173-03 and another program of the same model.
+// The solar range, and the light of a clear sky in it: against ASTM G173-03 and another program of the same model.
 #include "optics/colour.h"
 #include "optics/dispersion.h"
 #include "optics/spectrum.h"
@@ -11,14 +11,14 @@
 
 namespace nephroid::clear_sky_test {
 
-using optics::Band;
+using optics::SpectralRange;
 using optics::Spectrum;
 
 double sum(const Spectrum& spectrum) { return std::accumulate(spectrum.begin(), spectrum.end(), 0.0); }
 
 /// Of the cells' parts between two wavelengths.
 double sum(const Spectrum& spectrum, double low_nm, double high_nm) {
-  const optics::Cells& cells = optics::cells(Band::solar);
+  const optics::Cells& cells = optics::cells(SpectralRange::solar);
   double total = 0;
   for (std::size_t i = 0; i < spectrum.size(); ++i) {
     const double low = std::max(low_nm, cells.nm[i] - cells.width_nm[i] / 2),
@@ -28,8 +28,8 @@ double sum(const Spectrum& spectrum, double low_nm, double high_nm) {
   return total;
 }
 
-TEST(SolarBand, CellsFollowEachOther) {
-  const optics::Cells& cells = optics::cells(Band::solar);
+TEST(SolarRange, CellsFollowEachOther) {
+  const optics::Cells& cells = optics::cells(SpectralRange::solar);
   double edge = 280;
   for (std::size_t i = 0; i < optics::wavelength_count; ++i) {
     EXPECT_NEAR(cells.nm[i] - cells.width_nm[i] / 2, edge, 1e-9);
@@ -38,16 +38,16 @@ TEST(SolarBand, CellsFollowEachOther) {
   EXPECT_NEAR(edge, 4000, 1e-9);
 }
 
-TEST(SolarBand, VisibleLightKeepsItsPowerAndItsLuminance) {
-  const Spectrum visible = optics::illuminant("A"), solar = optics::illuminant("A", Band::solar);
+TEST(SolarRange, VisibleLightKeepsItsPowerAndItsLuminance) {
+  const Spectrum visible = optics::illuminant("A"), solar = optics::illuminant("A", SpectralRange::solar);
   EXPECT_NEAR(sum(solar), 1, 1e-12);
-  const auto luminance = [](const Spectrum& light, Band band) {
-    return std::inner_product(light.begin(), light.end(), optics::power_and_luminance(band).y.begin(), 0.0);
+  const auto luminance = [](const Spectrum& light, SpectralRange range) {
+    return std::inner_product(light.begin(), light.end(), optics::power_and_luminance(range).y.begin(), 0.0);
   };
-  EXPECT_NEAR(luminance(solar, Band::solar) / luminance(visible, Band::visible), 1, 2e-4);
+  EXPECT_NEAR(luminance(solar, SpectralRange::solar) / luminance(visible, SpectralRange::visible), 1, 2e-4);
 }
 
-TEST(SolarBand, ABlackBodyShinesBeyondTheVisible) {
+TEST(SolarRange, ABlackBodyShinesBeyondTheVisible) {
   const auto below = [](double nm, double kelvin) { // 15 / pi^4 sum of e^-nx (x^3 / n + 3 x^2 / n^2 + 6 x / n^3 + ...)
     const double x = 1.438776877503933e7 / (nm * kelvin);
     double total = 0;
@@ -57,21 +57,33 @@ TEST(SolarBand, ABlackBodyShinesBeyondTheVisible) {
   };
   for (const double kelvin : {2700.0, 5800.0}) {
     const double right = (below(4000, kelvin) - below(280, kelvin)) / (below(780.5, kelvin) - below(379.5, kelvin));
-    EXPECT_NEAR(sum(optics::blackbody(kelvin, Band::solar)) / right, 1, 1e-3) << kelvin;
+    EXPECT_NEAR(sum(optics::blackbody(kelvin, SpectralRange::solar)) / right, 1, 1e-3) << kelvin;
   }
 }
 
-TEST(SolarBand, TablesAndLinesHaveWhatIsBeyond) {
+TEST(SolarRange, TablesAndLinesHaveWhatIsBeyond) {
   const std::array<std::array<double, 2>, 2> lines{{{550, 1}, {1064, 3}}}, flat{{{380, 1}, {980, 1}}};
-  EXPECT_NEAR(sum(optics::light_lines(lines, Band::solar)), 4, 1e-12);
-  EXPECT_NEAR(sum(optics::light_table(flat, Band::solar)), 600.0 / 400.5, 1e-3);
-  EXPECT_NEAR(sum(optics::light_table(std::array<std::array<double, 2>, 2>{{{400, 1}, {700, 2}}}, Band::solar)), 1,
-              1e-12);
+  EXPECT_NEAR(sum(optics::light_lines(lines, SpectralRange::solar)), 4, 1e-12);
+  EXPECT_NEAR(sum(optics::light_table(flat, SpectralRange::solar)), 600.0 / 400.5, 1e-3);
+  EXPECT_NEAR(
+      sum(optics::light_table(std::array<std::array<double, 2>, 2>{{{400, 1}, {700, 2}}}, SpectralRange::solar)), 1,
+      1e-12);
 }
 
-TEST(SolarBand, BeyondAFormulaThatFailsItsEndIsHeld) {
+TEST(SolarRange, ALineKeepsItsLuminance) {
+  for (const double nm : {455.0, 532.0, 589.3, 632.8}) {
+    const std::array<std::array<double, 2>, 1> line{{{nm, 1}}};
+    const auto luminance = [&](SpectralRange range) {
+      const Spectrum light = optics::light_lines(line, range);
+      return std::inner_product(light.begin(), light.end(), optics::power_and_luminance(range).y.begin(), 0.0);
+    };
+    EXPECT_NEAR(luminance(SpectralRange::solar) / luminance(SpectralRange::visible), 1, 5e-3) << nm;
+  }
+}
+
+TEST(SolarRange, BeyondAFormulaThatFailsItsEndIsHeld) {
   const optics::DispersionCurve curve = optics::sellmeier(std::array{1.3}, std::array{0.09}, 380, 780);
-  const Spectrum n = optics::sample_n(curve, optics::Extrapolation::automatic, Band::solar);
+  const Spectrum n = optics::sample_n(curve, optics::Extrapolation::automatic, SpectralRange::solar);
   EXPECT_NEAR(n.front(), curve.sample(380).n.value(), 1e-12) << "below its pole at 300 nm";
   EXPECT_NEAR(n.back(), std::sqrt(1 + 1.3 * 16 / (16 - 0.09)), 1e-3) << "above 780 nm the formula goes on";
 }
@@ -85,7 +97,7 @@ constexpr double standard_elevation_deg = 90 - 48.236; // 1.5 times the zenith's
 TEST(ClearSky, HasTheSunOfAstmG173) {
   constexpr std::array<double, 11> edges{280, 400, 500, 600, 700, 800, 1000, 1300, 1700, 2500, 4000};
   constexpr std::array<double, 10> right{30.52, 115.12, 133.77, 125.92, 103.47, 140.63, 132.20, 64.49, 46.17, 7.85};
-  const Spectrum direct = scene::clear_sky(standard_elevation_deg, standard_air, 0.2, 1, Band::solar).direct;
+  const Spectrum direct = scene::clear_sky(standard_elevation_deg, standard_air, 0.2, 1, SpectralRange::solar).direct;
   for (std::size_t i = 0; i < right.size(); ++i)
     EXPECT_NEAR(sum(direct, edges[i], edges[i + 1]) / right[i], 1, i == 7 ? 0.08 : 0.03) << edges[i];
   EXPECT_NEAR(sum(direct), 900.14, 0.015 * 900.14);
@@ -95,7 +107,7 @@ TEST(ClearSky, HasTheSunOfAstmG173) {
 TEST(ClearSky, IsThatOfAnotherProgram) {
   constexpr std::array<double, 6> edges{280, 400, 500, 600, 700, 4000};
   constexpr std::array<double, 5> direct{29.89, 114.06, 135.84, 126.12, 505.68}, sky{16.70, 27.64, 17.99, 10.79, 18.47};
-  const scene::ClearSky light = scene::clear_sky(standard_elevation_deg, standard_air, 0.2, 1, Band::solar);
+  const scene::ClearSky light = scene::clear_sky(standard_elevation_deg, standard_air, 0.2, 1, SpectralRange::solar);
   for (std::size_t i = 0; i < sky.size(); ++i) {
     EXPECT_NEAR(sum(light.direct, edges[i], edges[i + 1]) / direct[i], 1, 5e-3) << edges[i];
     EXPECT_NEAR(sum(light.diffuse, edges[i], edges[i + 1]) / sky[i], 1, 0.02) << edges[i];
@@ -104,8 +116,8 @@ TEST(ClearSky, IsThatOfAnotherProgram) {
 
 TEST(ClearSky, IsTheSameInBothBands) {
   const scene::Air air = scene::air_of(3);
-  const scene::ClearSky visible = scene::clear_sky(40, air, 0.2, 1, Band::visible),
-                        solar = scene::clear_sky(40, air, 0.2, 1, Band::solar);
+  const scene::ClearSky visible = scene::clear_sky(40, air, 0.2, 1, SpectralRange::visible),
+                        solar = scene::clear_sky(40, air, 0.2, 1, SpectralRange::solar);
   EXPECT_NEAR(sum(solar.direct, 379.5, 780.5) / sum(visible.direct), 1, 1e-9);
   EXPECT_NEAR(sum(solar.diffuse, 379.5, 780.5) / sum(visible.diffuse), 1, 1e-9);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of glTF, Mitsuba, PBRT and GemCad files find, in the file's own coordinates and units. import.cpp makes a
-// preset of it. Intensities are colours whose luminance is in the file's unit of power.
+// What the readers of glTF, Mitsuba, PBRT and GemCad files find, in the file's own coordinates and units. import.cpp
+// makes a preset of it. Intensities are colours whose luminance is in the file's unit of power.
 #pragma once
 #include "base/bytes.h"
 #include "formats/import/described_colour.h"

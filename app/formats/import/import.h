@@ -21,11 +21,12 @@ struct Imported {
   std::string summary() const;
 };
 
-/// Reads a Mitsuba scene (.xml), a PBRT scene (.pbrt), a stone of GemCad (.asc), or else glTF 2.0, and writes `preset` and, in the folder
-/// NAME-meshes beside it, its meshes, each once; notes, if there are any, as NAME-not-imported.txt and as the preset's
-/// `not_imported`. Makes folders where needed. Nothing is there where it fails. Throws bad_input naming the file and
-/// the place in it: cut or of another format, an index out of range, nodes in a circle, a buffer that is missing or too
-/// short, no surface at all, facets that leave a stone open; interrupted where the watch says so.
+/// Reads a Mitsuba scene (.xml), a PBRT scene (.pbrt), a stone of GemCad (.asc), or else glTF 2.0, and writes `preset`
+/// and, in the folder NAME-meshes beside it, its meshes, each once; notes, if there are any, as NAME-not-imported.txt
+/// and as the preset's `not_imported`. Makes folders where needed. Nothing is there where it fails. Throws bad_input
+/// naming the file and the place in it: cut or of another format, an index out of range, nodes in a circle, a buffer
+/// that is missing or too short, no surface at all, facets that leave a stone open; interrupted where the watch says
+/// so.
 Imported import_scene(const std::filesystem::path& file, const std::filesystem::path& preset, const Watch& watch = {});
 
 } // namespace nephroid::formats

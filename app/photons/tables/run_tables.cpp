@@ -61,7 +61,7 @@ void set_scales(const scene::Scene& scene, int samples, RunTables& tables) {
     irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(distance * metres, 2));
   }
   for (const shared::DeviceLight& light : tables.lights)
-    if (light.type == LIGHT_MESH)
+    if (light.type == LIGHT_MESH && !(scene.camera.meter && scene.camera.meter->is_goniometer())) // its cells are far
       irradiance = std::max(irradiance,
                             light.radiometric * tables.power_unit / (light.as.mesh.area * metres * metres) * 0x1p-16);
   tables.direct_scale = tracing::power_of_two_below(std::exp2(24) * pi / irradiance);
