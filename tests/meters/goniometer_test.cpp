@@ -123,7 +123,7 @@ TEST(Goniometer, WritesTheFileOfALampThatWasRead) {
 TEST(Goniometer, ALampMayHaveItsFilesOwnLumens) {
   const TemporaryFolder folder;
   std::string text = uneven_lamp();
-  text.replace(text.find("\n1 1 10\n"), 8, "\n.9 1 10");
+  text.replace(text.find("\n1 1 10\n"), 8, "\n.9 1 10\n");
   folder.write("in.ies", text);
   const auto lumens_of = [&](const std::string& file) {
     const Measured far = measured(lamp_preset(
