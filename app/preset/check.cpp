@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "base/numbers.h"
+#include "preset/choices.h"
 #include "preset/meters.h"
 #include "preset/settings_type.h"
 

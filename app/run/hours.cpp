@@ -44,9 +44,9 @@ Hours hours_of_year(const preset::PlaceAndTime& place, int every) {
   const std::string year = year_of(place);
   Hours hours{.about = every_day(every) + " of " + year, .place = place};
   const int first = preset::days_since_2000(year + "-01-01").value(),
-            last = preset::days_since_2000(year + "-12-31").value();
+            last = preset::days_since_2000(year + "-12-31").value(), all = last - first + 1;
   for (int day = first; day <= last; day += every) add_day(hours, date_of(day));
-  hours.weight_h = weight_of(static_cast<std::size_t>(last - first + 1), hours.hours.size() / 24);
+  hours.weight_h = weight_of(static_cast<std::size_t>(all), hours.hours.size() / 24);
   return hours;
 }
 

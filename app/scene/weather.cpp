@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string_view>
 
 namespace nephroid::scene {
@@ -80,7 +81,7 @@ Weather read_weather(const std::filesystem::path& file) {
       line.refuse(fmt::format("says that an hour has {} parts", line.text(2)), "expected whole hours");
     if (number <= header_lines || line.text(0).empty()) continue;
     const double hour = line[3];
-    const int last = weather.hours.empty() ? 0 : static_cast<int>(weather.hours.back().hour + 0.5);
+    const int last = weather.hours.empty() ? 0 : static_cast<int>(std::ceil(weather.hours.back().hour));
     if (hour != last % hours_of_day + 1)
       line.refuse(fmt::format("is of hour {} after hour {}", hour, last), "expected the hours 1 to 24 of each day");
     if (!(line[1] >= 1 && line[1] <= 12 && line[2] >= 1 && line[2] <= 31))
