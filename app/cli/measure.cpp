@@ -44,7 +44,7 @@ struct MeasureOptions {
   std::optional<double> seconds, until_percent;
   std::optional<std::uint64_t> seed;
   std::string hours;
-  int every = 7;
+  std::optional<int> every;
   compute::DeviceOptions device;
   bool json = false;
 };

@@ -93,11 +93,15 @@ run::Hours hours_of(const HoursOptions& options, const preset::Preset& preset) {
   if (!sky || sky->type != preset::Environment::Type::sky || !sky->place)
     throw bad_input(Location(preset.source) / "scene", "has no sky of a place, and so no hours",
                     "expected a sky with \"place\"", "docs/sky.md has one");
+  constexpr int usual_days = 7;
+  const int every = options.every.value_or(usual_days);
+  if (options.which == "day" && options.every)
+    throw bad_input("--every", "is of days, and there is one", "expected --hours year or FILE.epw beside it");
   if (options.which == "day") return run::hours_of_day(*sky->place);
-  if (options.which == "year") return run::hours_of_year(*sky->place, options.every);
+  if (options.which == "year") return run::hours_of_year(*sky->place, every);
   if (!options.which.ends_with(".epw") && !options.which.ends_with(".EPW"))
     throw bad_input("--hours", fmt::format("is {}", options.which), "expected day, year, or a weather file FILE.epw");
-  return run::hours_of_weather(scene::read_weather(options.which), *sky->place, options.every);
+  return run::hours_of_weather(scene::read_weather(options.which), *sky->place, every);
 }
 
 std::string clock(double hour) {
@@ -122,10 +126,10 @@ void print_text(const Series& series, const run::Hours& hours, optics::SpectralR
   fmt::print("{}: {}, {} with light; {} of {}\n", series.meter.name, hours.about, counted(series.lines.size(), "hour"),
              preset::word(preset::unit_of(series.meter)), text_of(range));
   if (series.lines.empty()) return;
+  const bool is_day = series.lines.front().hour.date == series.lines.back().hour.date;
   std::map<std::string, const Line*> shown;
   for (const Line& line : series.lines) {
-    const Line*& best =
-        shown[hours.weight_h == 1 && hours.hours.size() == 24 ? clock(line.hour.hour) : line.hour.date.substr(0, 7)];
+    const Line*& best = shown[is_day ? clock(line.hour.hour) : line.hour.date.substr(0, 7)];
     if (!best || line.peak.value > best->peak.value) best = &line;
   }
   for (const auto& [key, line] : shown) print_line(*line, unit);
@@ -192,12 +196,12 @@ std::string hours_csv(const Series& series) {
   return text;
 }
 
-void report(const HoursOptions& options, const run::Hours& hours, const std::vector<Series>& all,
+void report(const HoursOptions& options, const run::Hours& hours, const std::vector<Series>& by_meter,
             optics::SpectralRange range, const std::string& preset) {
   Json object{{"preset", preset},       {"wavelengths", text_of(range)},  {"confidence", 0.95},
               {"series", hours.about},  {"missing_hours", hours.missing}, {"hours_each", hours.weight_h},
               {"meters", Json::array()}};
-  for (const Series& series : all) {
+  for (const Series& series : by_meter) {
     object["meters"].push_back(to_json(series, hours));
     if (!options.json) print_text(series, hours, range);
     if (options.folder.empty() || !series.highest) continue;
@@ -237,9 +241,9 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
     fmt::print(stderr, "note: {} of the weather file have light and their sun below the horizon, and are left out\n",
                counted(hours.twilight, "hour"));
   if (!options.folder.empty()) fs::create_directories(options.folder);
-  std::vector<Series> all;
+  std::vector<Series> by_meter;
   for (const preset::Meter& meter : prepared.preset.scene.meters)
-    if (options.meter.empty() || meter.name == options.meter) all.emplace_back(meter);
+    if (options.meter.empty() || meter.name == options.meter) by_meter.emplace_back(meter);
   optics::SpectralRange range = optics::SpectralRange::solar;
   std::set<std::string> told;
   LiveLine live;
@@ -258,7 +262,7 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
     if (!run::is_dark(sky)) range = metering.range();
     for (std::size_t m = 0; m < metering.meters().size(); ++m) {
       const MeterInHand& meter = metering.meters()[m];
-      Series& series = all[m];
+      Series& series = by_meter[m];
       const bool is_highest = series.lines.empty() || line_of(meter, hour, {}).peak.value > series.top().peak.value;
       series.lines.push_back(line_of(meter, hour, scene::sun_place(*sky.place)));
       series.sums.add(meter.reading->all().cells[static_cast<std::size_t>(meters::quantity_of(meter.meter.unit))],
@@ -273,7 +277,7 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
     }
   }
   live.clear();
-  report(options, hours, all, range, prepared.preset.name);
+  report(options, hours, by_meter, range, prepared.preset.name);
   if (interrupted.stop_requested())
     throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted: the numbers are of the hours until then");
 }

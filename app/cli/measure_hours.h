@@ -15,7 +15,7 @@ struct HoursOptions {
   std::string which;            ///< day, year, or a file
   std::string meter;            ///< empty: all
   std::filesystem::path folder; ///< empty: no files
-  int every = 7;                ///< days
+  std::optional<int> every;     ///< days; nothing: 7
   std::optional<double> seconds, until_percent;
   bool json = false;
 };

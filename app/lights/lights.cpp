@@ -154,9 +154,9 @@ void scene::add_light(const preset::Light& from, const FileFinder& finder, const
   light.spectrum = scatter::make_light_spectrum(from.spectrum, where / "spectrum", scene.range);
   lights::model(light).load(from, {scene, finder, where, scene.warnings}, light);
   if (scene.range != optics::SpectralRange::visible) { // power is given for 380 to 780 nm, and there is more
-    const double all = optics::sum_of(light.spectrum);
-    for (double& share : light.spectrum) share /= all;
-    light.power_w *= all, light.irradiance_w_m2 *= all;
+    const double per_visible = optics::sum_of(light.spectrum);
+    for (double& share : light.spectrum) share /= per_visible;
+    light.power_w *= per_visible, light.irradiance_w_m2 *= per_visible;
   }
   const std::size_t index = scene.lights.size();
   scene.lights.push_back(std::move(light));

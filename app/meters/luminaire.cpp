@@ -62,18 +62,18 @@ std::string eulumdat(const preset::Meter& meter, const scene::MeterSurface& goni
                      const std::string& name) {
   const Grid grid = grid_of(meter, goniometer, reading);
   const double lumens = lumens_of(reading);
-  double below = 0, all = 0; // of the flux, for the share that goes down
+  double below = 0, everywhere = 0; // the flux, up to a factor
   for (int gamma = 0; gamma < grid.gammas; ++gamma)
     for (int plane = 0; plane < grid.planes; ++plane) {
       const double angle = gamma * grid.step_deg, flux = grid.at(plane, gamma) * std::sin(angle * M_PI / 180);
-      all += flux;
+      everywhere += flux;
       below += angle < 90 ? flux : angle > 90 ? 0 : flux / 2;
     }
   std::string text = fmt::format("Nephroid\n3\n0\n{}\n{:.6g}\n{}\n{:.6g}\n{}\n{}\n\n\n\n", grid.planes, grid.step_deg,
                                  grid.gammas, grid.step_deg, cut(meter.name), cut(name));
   for (int i = 0; i < 9; ++i) text += "0\n"; // its sizes
-  text += fmt::format("{:.4g}\n100\n1\n0\n1\n1\n-\n{:.6g}\n-\n-\n{:.6g}\n", all > 0 ? 100 * below / all : 0, lumens,
-                      watts_of(reading));
+  text += fmt::format("{:.4g}\n100\n1\n0\n1\n1\n-\n{:.6g}\n-\n-\n{:.6g}\n",
+                      everywhere > 0 ? 100 * below / everywhere : 0, lumens, watts_of(reading));
   for (int i = 0; i < 10; ++i) text += "0\n"; // ratios for a room's indices
   for (int plane = 0; plane < grid.planes; ++plane) text += fmt::format("{:.6g}\n", plane * grid.step_deg);
   for (int gamma = 0; gamma < grid.gammas; ++gamma) text += fmt::format("{:.6g}\n", gamma * grid.step_deg);

@@ -153,13 +153,12 @@ Interval interval_of(std::span<const double> values, double rounding) {
 }
 
 Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, double metres_per_unit,
-             const std::vector<photons::MeterLayer>& layers) {
+             std::vector<photons::MeterLayer> layers) {
   Reading reading;
   const double square_metres = metres_per_unit * metres_per_unit;
   for (const double area : surface.weights()) reading.extent += area * (surface.is_goniometer() ? 1 : square_metres);
   std::vector<double> all(2 * replicates * surface.count(), 0);
-  std::vector<photons::MeterLayer> shown = layers;
-  for (photons::MeterLayer& layer : shown)
+  for (photons::MeterLayer& layer : layers)
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::size_t cell = i / 2 % surface.count();
       if (surface.is_goniometer()) // what crosses the cell, by its solid angle
@@ -167,7 +166,7 @@ Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, dou
       all[i] += layer.replicates[i];
     }
   reading.layers.push_back(layer_reading("all", all, surface, reading.extent));
-  for (const photons::MeterLayer& layer : shown)
+  for (const photons::MeterLayer& layer : layers)
     reading.layers.push_back(layer_reading(layer.name, layer.replicates, surface, reading.extent));
   if (meter.threshold) {
     const preset::Quantity threshold = *preset::quantity_in(*meter.threshold); // preset::check has looked

@@ -54,7 +54,7 @@ struct Reading {
 
 /// layers: photons::MeterRun::layers.
 Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, double metres_per_unit,
-             const std::vector<photons::MeterLayer>& layers);
+             std::vector<photons::MeterLayer> layers);
 
 /// The larger relative half width of the intervals of mean and peak, of the quantity of the meter's unit. Infinite
 /// where no light was found.

@@ -208,7 +208,7 @@ std::string outside_note(const DispersionCurve& curve, Extrapolation outside, Sp
   };
   const std::string where = outside_of(low, high);
   std::vector<std::string> notes;
-  if (range != SpectralRange::visible && curve.k) // as pictures have it, nobody asks
+  if (range != SpectralRange::visible && curve.k) // pictures hold it silently: few data of k begin at 380 nm
     if (const std::string of_k = outside_of(curve.k->low_nm, curve.k->high_nm); !of_k.empty())
       notes.push_back(fmt::format("k is held {}", of_k));
   const bool held = outside == Extrapolation::hold || !curve.n->formula;

@@ -30,7 +30,9 @@ std::string every_day(int every) { return every == 1 ? "each day" : fmt::format(
 std::string year_of(const preset::PlaceAndTime& place) { return place.date.substr(0, 4); }
 
 /// What an hour stands for where so many days of all are taken.
-double weight_of(std::size_t all, std::size_t taken) { return static_cast<double>(all) / static_cast<double>(taken); }
+double weight_of(std::size_t there_are, std::size_t taken) {
+  return static_cast<double>(there_are) / static_cast<double>(taken);
+}
 
 } // namespace
 
@@ -44,9 +46,9 @@ Hours hours_of_year(const preset::PlaceAndTime& place, int every) {
   const std::string year = year_of(place);
   Hours hours{.about = every_day(every) + " of " + year, .place = place};
   const int first = preset::days_since_2000(year + "-01-01").value(),
-            last = preset::days_since_2000(year + "-12-31").value(), all = last - first + 1;
+            last = preset::days_since_2000(year + "-12-31").value(), days_of_year = last - first + 1;
   for (int day = first; day <= last; day += every) add_day(hours, date_of(day));
-  hours.weight_h = weight_of(static_cast<std::size_t>(all), hours.hours.size() / 24);
+  hours.weight_h = weight_of(static_cast<std::size_t>(days_of_year), hours.hours.size() / 24);
   return hours;
 }
 
