@@ -24,9 +24,9 @@ struct Environment {
   std::vector<float> rgb; ///< linear sRGB, finite, not negative, 3 a texel
   double radiance = 1;    ///< Y in W m^-2 sr^-1 of the colour (1, 1, 1)
   double rotate_deg = 0;
-  std::array<optics::Spectrum, 3> primaries = optics::primary_spectra(); ///< of the colours red, green and blue
   bool lights = false;    ///< whether it is a light too; never where it is black
   std::string about = {}; ///< of a sky: where its sun is and the irradiances, for a plan
+  std::array<optics::Spectrum, 3> primaries = optics::primary_spectra(); ///< of the colours red, green and blue
 
   /// Whether nothing of it can be seen.
   bool is_black() const;
