@@ -2,6 +2,9 @@
 // A snapshot of a run: its pictures as arrays, where they are, and its figures.
 #include "job/job.h"
 #include "python/bindings.h"
+#include "run/meter_files.h"
+
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -51,6 +54,33 @@ py::dict figures(const Snapshot& snapshot) {
   return groups;
 }
 
+/// What measure.json has of each meter, as text, and its cells.
+py::dict meter_table(const Snapshot& snapshot) {
+  py::dict all;
+  if (!snapshot->meters) return all;
+  const auto list = run::to_json("", *snapshot->meters).at("meters");
+  auto json = list.begin();
+  for (const meters::Shown& shown : snapshot->meters->meters) {
+    if (!shown.reading) continue;
+    py::dict cells;
+    const scene::MeterSurface& surface = *shown.surface;
+    for (const meters::Quantity quantity : meters::quantities) {
+      std::vector<std::vector<double>> rows;
+      for (const meters::Interval& cell : shown.reading->all().cells[static_cast<std::size_t>(quantity)])
+        rows.push_back({cell.value, cell.low, cell.high});
+      cells[run::unit_of(surface, quantity)] = columns_of({"value", "low", "high"}, rows);
+    }
+    std::vector<std::vector<double>> places;
+    for (const glm::dvec3& centre : surface.centres) {
+      const glm::dvec3 p = centre + shown.origin;
+      places.push_back({p.x, p.y, p.z});
+    }
+    cells["place"] = columns_of({"x", "y", "z"}, places);
+    all[py::str(shown.meter.name)] = py::make_tuple((json++)->dump(), cells);
+  }
+  return all;
+}
+
 } // namespace
 
 void add_pictures(py::module_& module) {
@@ -84,6 +114,7 @@ void add_pictures(py::module_& module) {
       .def("error_column",
            [](const Snapshot& snapshot) { return snapshot->history ? snapshot->history->error_column : ""; })
       .def("figures", &figures)
+      .def("meters", &meter_table)
       .def("curves", [](const Snapshot& snapshot) {
         py::dict curves;
         for (const job::Curve& curve : snapshot->curves)

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid measure`: what the meters of a preset show, as a table and as files.
 #include "base/counted.h"
-#include "base/files.h"
 #include "base/interrupts.h"
 #include "base/json_output.h"
-#include "cli/intervals.h"
 #include "cli/measure_hours.h"
 #include "cli/progress.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
-#include "image/image.h"
-#include "meters/luminaire.h"
-#include "meters/map.h"
+#include "meters/intervals.h"
 #include "preset/choices.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "run/meter_files.h"
 #include "run/meters.h"
 
 #include <fmt/format.h>
@@ -28,7 +25,6 @@
 namespace nephroid::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using meters::Interval;
 using meters::LayerReading;
 using meters::Numbers;
@@ -49,22 +45,17 @@ struct MeasureOptions {
   bool json = false;
 };
 
-const char* unit_of(const MeterInHand& meter, Quantity quantity) {
-  if (meter.surface.is_goniometer()) return quantity == Quantity::irradiance ? "W/sr" : "cd";
-  return quantity == Quantity::irradiance ? "W/m^2" : "lx";
-}
-
 std::string percent_of(const Interval& share) {
   if (share.high - share.low < 5e-4) return fmt::format("{:.1f} %", 100 * share.value);
   return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100 * share.value, 100 * share.low, 100 * share.high);
 }
 
 void print_numbers(const MeterInHand& meter, const Reading& reading, Quantity quantity) {
-  fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", unit_of(meter, quantity), "mean", "peak", "least");
+  fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", run::unit_of(*meter.surface, quantity), "mean", "peak", "least");
   for (const LayerReading& layer : reading.layers) {
     const Numbers& n = layer.numbers(quantity);
     fmt::print("  {:<9} {:>22} {:>26} {:>24}\n", layer.name, text_of(n.mean),
-               meter.surface.count() > 1 ? text_of(n.peak) : "", meter.surface.count() > 1 ? text_of(n.least) : "");
+               meter.surface->count() > 1 ? text_of(n.peak) : "", meter.surface->count() > 1 ? text_of(n.least) : "");
   }
 }
 
@@ -72,26 +63,26 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::
   const Reading& reading = *meter.reading;
   const Numbers &watts = reading.all().numbers(Quantity::irradiance),
                 &lux = reading.all().numbers(Quantity::illuminance);
-  fmt::print("{}: {}, {:.4g} {}, light of {}; {:.1f} s", meter.meter.name, counted(meter.surface.count(), "cell"),
-             reading.extent, meter.surface.is_goniometer() ? "sr" : "m^2", text_of(range), meter.seconds);
+  fmt::print("{}: {}, {:.4g} {}, light of {}; {:.1f} s", meter.meter.name, counted(meter.surface->count(), "cell"),
+             reading.extent, meter.surface->is_goniometer() ? "sr" : "m^2", text_of(range), meter.seconds);
   if (meter.photons > 0) fmt::print(", {:.3g} million photons", 1e-6 * static_cast<double>(meter.photons));
   fmt::print("\n");
   print_numbers(meter, reading, Quantity::irradiance);
   print_numbers(meter, reading, Quantity::illuminance);
   fmt::print("  total {} W, {} lm\n", text_of(watts.total), text_of(lux.total));
-  if (meter.surface.is_goniometer()) {
+  if (meter.surface->is_goniometer()) {
     const scene::GammaC way =
-        scene::direction_of(meter.surface, reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell);
+        scene::direction_of(*meter.surface, reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell);
     fmt::print("  peak at gamma {:.1f}, C {:.1f} degrees\n", way.gamma_deg, way.c_deg);
-  } else if (meter.surface.count() > 1) {
+  } else if (meter.surface->count() > 1) {
     const Numbers& shown = reading.all().numbers(meters::quantity_of(meter.meter.unit));
-    const glm::dvec3 p = meter.surface.centres[shown.peak_cell] + meter.origin;
+    const glm::dvec3 p = meter.surface->centres[shown.peak_cell] + meter.origin;
     fmt::print("  peak at ({:.4g}, {:.4g}, {:.4g}) {}; uniformity (least / mean) {}\n", p.x, p.y, p.z,
                preset::word(preset.unit), text_of(lux.uniformity));
   }
   if (reading.share_above)
     fmt::print("  above {}: {} of the {}\n", *meter.meter.threshold, percent_of(*reading.share_above),
-               meter.surface.is_goniometer() ? "directions" : "area");
+               meter.surface->is_goniometer() ? "directions" : "area");
   if (!(reading.all().numbers(Quantity::irradiance).mean.value > 0))
     fmt::print("  no light was found: it is dark, or light is rare here and wants more time\n");
   if (const std::uint64_t refused = meter.run->refused(); refused > 0)
@@ -101,64 +92,14 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::
                meter.plan.settings.max_surfaces);
 }
 
-Json to_json(const Numbers& numbers, const char* total) {
-  return {{"mean", json_of(numbers.mean)},
-          {total, json_of(numbers.total)},
-          {"peak", json_of(numbers.peak)},
-          {"least", json_of(numbers.least)},
-          {"uniformity", json_of(numbers.uniformity)}};
-}
-
-Json to_json(const MeterInHand& meter) {
-  const Reading& reading = *meter.reading;
-  Json object{{"name", meter.meter.name},
-              {"cells", meter.surface.count()},
-              {meter.surface.is_goniometer() ? "steradians" : "area_m2", reading.extent},
-              {"seconds", meter.seconds},
-              {"photons", meter.photons},
-              {"lost_share", meter.run->lost_share()}};
-  for (const LayerReading& layer : reading.layers)
-    object["layers"][layer.name] = {
-        {unit_of(meter, Quantity::irradiance), to_json(layer.numbers(Quantity::irradiance), "total_w")},
-        {unit_of(meter, Quantity::illuminance), to_json(layer.numbers(Quantity::illuminance), "total_lm")}};
-  const std::size_t peak = reading.all().numbers(meters::quantity_of(meter.meter.unit)).peak_cell;
-  const glm::dvec3 p = meter.surface.centres[peak] + meter.origin;
-  if (meter.surface.is_goniometer()) {
-    const scene::GammaC way = scene::direction_of(meter.surface, peak);
-    object["peak_at"] = {{"gamma_deg", way.gamma_deg}, {"c_deg", way.c_deg}};
-  } else
-    object["peak_at"] = {p.x, p.y, p.z};
-  if (reading.share_above)
-    object["above"] = {{"threshold", *meter.meter.threshold}, {"share", json_of(*reading.share_above)}};
-  return object;
-}
-
-void write_files(const fs::path& folder, const MeterInHand& meter, double metres_per_unit) {
-  const std::string stem = preset::file_stem(meter.meter);
-  const Reading& reading = *meter.reading;
-  write_file_whole(folder / (stem + ".csv"), meters::csv(meter.surface, meter.origin, metres_per_unit, reading));
-  if (meter.surface.is_goniometer()) {
-    write_file_whole(folder / (stem + ".ies"), meters::ies(meter.meter, meter.surface, reading, stem));
-    write_file_whole(folder / (stem + ".ldt"), meters::eulumdat(meter.meter, meter.surface, reading, stem));
-  }
-  image::write_exr(folder / (stem + ".exr"), meters::picture(meter.surface, metres_per_unit, reading));
-  const measure::Bitmap map = meters::false_colours(meter.meter, meter.surface, reading);
-  image::write_png_bytes(folder / (stem + ".png"), map.width, map.height, map.rgba);
-}
-
 void report(const MeasureOptions& options, const run::Metering& metering) {
-  Json list = Json::array();
-  for (const MeterInHand& meter : metering.meters()) {
-    list.push_back(to_json(meter));
-    if (!options.json) print_text(meter, metering.prepared().preset, metering.range());
-    if (!options.folder.empty()) write_files(options.folder, meter, metering.prepared().loaded->scene.metres_per_unit);
-  }
-  const Json object{{"preset", metering.prepared().preset.name},
-                    {"wavelengths", text_of(metering.range())},
-                    {"confidence", 0.95},
-                    {"meters", list}};
-  if (options.json) fmt::print("{}\n", json_text(object));
-  if (!options.folder.empty()) write_file_whole(options.folder / "measure.json", object.dump(2) + "\n");
+  const meters::Readings readings = metering.readings();
+  const std::string& name = metering.prepared().preset.name;
+  if (options.json)
+    fmt::print("{}\n", json_text(run::to_json(name, readings)));
+  else
+    for (const MeterInHand& meter : metering.meters()) print_text(meter, metering.prepared().preset, metering.range());
+  if (!options.folder.empty()) run::write_meters(options.folder, name, readings);
 }
 
 /// Works until every meter has a reading, and then enough of one.

@@ -5,9 +5,9 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "cli/intervals.h"
 #include "cli/progress.h"
 #include "image/image.h"
+#include "meters/intervals.h"
 #include "meters/map.h"
 #include "preset/choices.h"
 #include "run/hours.h"
@@ -111,7 +111,7 @@ std::string clock(double hour) {
 
 Line line_of(const MeterInHand& meter, const Hour& hour, const scene::SunPlace& sun) {
   const meters::Numbers& numbers = meter.reading->all().numbers(meters::quantity_of(meter.meter.unit));
-  return {hour, sun, numbers.mean, numbers.peak, meter.surface.centres[numbers.peak_cell] + meter.origin};
+  return {hour, sun, numbers.mean, numbers.peak, meter.surface->centres[numbers.peak_cell] + meter.origin};
 }
 
 void print_line(const Line& line, double unit, const char* before = "") {
@@ -270,7 +270,7 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
       if (is_highest) series.highest = meter.reading;
       series.lost_share = std::max(series.lost_share, meter.run->lost_share());
       series.refused += meter.run->refused();
-      series.surface = meter.surface, series.origin = meter.origin;
+      series.surface = *meter.surface, series.origin = meter.origin;
       if (shows)
         live.show(fmt::format("{} {}: {} {}", hour.date, clock(hour.hour), series.meter.name,
                               text_of(series.lines.back().peak, preset::size_of(preset::unit_of(series.meter)))));

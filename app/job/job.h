@@ -8,6 +8,10 @@
 #include <functional>
 #include <limits>
 
+namespace nephroid::meters {
+struct Readings;
+}
+
 namespace nephroid::job {
 
 struct Layer {
@@ -82,6 +86,7 @@ struct Snapshot {
   std::vector<std::pair<std::string, double>> phases; ///< seconds a phase, e.g. {"photons", 3.2}
   std::shared_ptr<const History> history;             ///< its error's so far; null where nothing is measured
   std::uint64_t adoption = 0; ///< the newest Worker::adopt() that it knows of; the worker's to set
+  std::shared_ptr<const meters::Readings> meters = nullptr; ///< what the preset's meters show; null before the first
 };
 
 /// A scalar's value; NaN where there is none.

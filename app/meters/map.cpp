@@ -123,49 +123,61 @@ image::Image picture(const scene::MeterSurface& surface, double metres_per_unit,
   return image;
 }
 
-measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading) {
-  constexpr int wanted_edge = 640;
+ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<double>& values, int edge) {
   constexpr Colour nothing{32, 32, 32}, line{255, 255, 255};
   const Map map = map_of(surface);
-  const int zoom = std::max(1, wanted_edge / std::max(map.width, map.height));
-  const auto q = static_cast<std::size_t>(quantity_of(meter.unit));
-  std::vector<double> values;
-  for (const Interval& cell : reading.all().cells[q])
-    values.push_back(cell.value / preset::size_of(preset::unit_of(meter)));
+  const int zoom = std::max(1, edge / std::max(map.width, map.height)), width = map.width * zoom,
+            height = map.height * zoom;
   const double scale = measure::colour_scale(std::vector<float>(values.begin(), values.end()));
-  const measure::ColourBar bar = measure::colour_bar(map.height * zoom, scale, false);
-  const int lines = bar.numbers - 1; // at the numbers beside the bar
-  const image::Image words =
-      image::text_picture(std::string(preset::word(preset::unit_of(meter))), 16, Location("a meter's map"));
-  const int top = words.height + 12, width = map.width * zoom;
-  measure::Bitmap bitmap(width + std::max(bar.width, words.width + 12), top + std::max(map.height * zoom, bar.height));
-  measure::Bitmap beside(bar.width, bar.height);
-  measure::draw(beside, 0, bar);
-  for (int y = 0; y < bar.height; ++y)
-    for (int x = 0; x < bar.width; ++x) {
-      const unsigned char* from =
-          beside.rgba.data() +
-          4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(bar.width) + static_cast<std::size_t>(x));
-      bitmap.set(width + x, top + y, {from[0], from[1], from[2]});
-    }
-  draw_words(bitmap, width + 6, 6, words);
+  ColouredMap result{measure::Bitmap(width, height), zoom, scale,
+                     measure::colour_bar(height, scale, false).numbers - 1};
   const auto level = [&](int x, int y) {
     const auto value = between(map, values, (x + 0.5) / zoom - 0.5, (y + 0.5) / zoom - 0.5);
-    return value ? static_cast<int>(std::floor(lines * *value / scale)) : -1;
+    return value ? static_cast<int>(std::floor(result.steps * *value / scale)) : -1;
   };
-  for (int y = 0; y < map.height * zoom; ++y)
+  const bool has_lines = map.width * map.height > 16 && zoom > 2;
+  for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int cell = map.cells[map.place(y / zoom, x / zoom)];
       if (cell < 0) {
-        bitmap.set(x, top + y, nothing);
+        result.bitmap.set(x, y, nothing);
         continue;
       }
       const int here = level(x, y);
       const bool crosses =
-          map.width * map.height > 16 && zoom > 2 && here <= lines &&
-          (level(std::min(x + 1, width - 1), y) != here || level(x, std::min(y + 1, map.height * zoom - 1)) != here);
-      bitmap.set(x, top + y, crosses ? line : measure::map_colour(values[static_cast<std::size_t>(cell)] / scale));
+          has_lines && here <= result.steps &&
+          (level(std::min(x + 1, width - 1), y) != here || level(x, std::min(y + 1, height - 1)) != here);
+      result.bitmap.set(x, y, crosses ? line : measure::map_colour(values[static_cast<std::size_t>(cell)] / scale));
     }
+  return result;
+}
+
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading) {
+  constexpr int edge = 640;
+  std::vector<double> values;
+  for (const Interval& cell : reading.all().cells[static_cast<std::size_t>(quantity_of(meter.unit))])
+    values.push_back(cell.value / preset::size_of(preset::unit_of(meter)));
+  const ColouredMap map = coloured(surface, values, edge);
+  const measure::ColourBar bar = measure::colour_bar(map.bitmap.height, map.scale, false); // numbers at the lines
+  const image::Image words =
+      image::text_picture(std::string(preset::word(preset::unit_of(meter))), 16, Location("a meter's map"));
+  const int top = words.height + 12;
+  measure::Bitmap bitmap(map.bitmap.width + std::max(bar.width, words.width + 12),
+                         top + std::max(map.bitmap.height, bar.height));
+  measure::Bitmap beside(bar.width, bar.height);
+  measure::draw(beside, 0, bar);
+  const auto copy = [&](const measure::Bitmap& from, int left) {
+    for (int y = 0; y < from.height; ++y)
+      for (int x = 0; x < from.width; ++x) {
+        const unsigned char* pixel =
+            from.rgba.data() +
+            4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) + static_cast<std::size_t>(x));
+        bitmap.set(left + x, top + y, {pixel[0], pixel[1], pixel[2]});
+      }
+  };
+  copy(map.bitmap, 0);
+  copy(beside, map.bitmap.width);
+  draw_words(bitmap, map.bitmap.width + 6, 6, words);
   return bitmap;
 }
 

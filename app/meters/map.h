@@ -30,6 +30,16 @@ std::string csv(const scene::MeterSurface& surface, const glm::dvec3& origin, do
 /// "direct.irradiance" and so on for layers, "area" in square metres: 0 where there is no cell.
 image::Image picture(const scene::MeterSurface& surface, double metres_per_unit, const Reading& reading);
 
+/// Values of cells in false colours, with lines of equal value where cells are large enough.
+struct ColouredMap {
+  measure::Bitmap bitmap; ///< a cell is zoom x zoom pixels
+  int zoom = 1;
+  double scale = 1; ///< the value at the end of the colours
+  int steps = 1;    ///< from a line of equal value to the next: scale over this
+};
+/// edge: of the bitmap's longer side, in pixels, where cells are fewer.
+ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<double>& values, int edge);
+
 /// Values of the meter's unit in false colours with lines of equal value, and the scale beside them.
 measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading);
 

@@ -46,6 +46,12 @@ public:
     return balance.emitted_w > 0 ? balance.lost_w / balance.emitted_w : 0;
   }
   std::uint64_t refused() override { return balance().refused_contributions; }
+  void serialize(tracing::Archive& archive) override {
+    passes_.state_of_position(archive);
+    archive.buffer(world_.energy);
+    passes_.state_of_stages(archive);
+    if (archive.is_read()) world_.context.finish();
+  }
 
 private:
   EnergyBalance balance() {
@@ -55,6 +61,24 @@ private:
 
   StageContext world_;
   Passes passes_;
+};
+
+/// Where there is no light.
+class DarkRun final : public MeterRun {
+public:
+  explicit DarkRun(std::size_t cells) : dark_{"direct", std::vector<double>(2 * meter_replicates * cells)} {}
+  void advance() override { ++cycles_; }
+  std::int64_t cycles() const override { return cycles_; }
+  std::uint64_t photons() const override { return 0; }
+  double work_seconds() const override { return 0; }
+  std::vector<MeterLayer> layers() override { return {dark_}; }
+  double lost_share() override { return 0; }
+  std::uint64_t refused() override { return 0; }
+  void serialize(tracing::Archive& archive) override { archive.value(cycles_); }
+
+private:
+  MeterLayer dark_;
+  std::int64_t cycles_ = 0;
 };
 
 } // namespace
@@ -80,6 +104,7 @@ RunPlan plan_meter(const preset::Preset& preset, const Settings& wanted, const s
 
 std::unique_ptr<MeterRun> make_meter_run(const preset::Preset& preset, const scene::Scene& view, const scene::Bvh& bvh,
                                          const RunPlan& plan, const mpi::RankContext& context) {
+  if (plan.layers == 0) return std::make_unique<DarkRun>(static_cast<std::size_t>(view.camera.width));
   return std::make_unique<Run>(preset, view, bvh, plan, context);
 }
 

@@ -4,6 +4,7 @@
 #include "mpi/rank_context.h"
 #include "photons/plan.h"
 #include "scene/meter.h"
+#include "tracing/archive.h"
 
 #include <cstdint>
 #include <memory>
@@ -36,10 +37,12 @@ public:
   virtual double lost_share() = 0;
   /// Contributions that were too large for a film: 0 in a sound run.
   virtual std::uint64_t refused() = 0;
+  /// Everything needed to go on later with the same bits.
+  virtual void serialize(tracing::Archive& archive) = 0;
 };
 
 /// view: of scene::meter_view, whose camera is the meter. wanted: the run's settings for photons. What a meter has no
-/// use for is left out.
+/// use for is left out. No layers: it is dark.
 RunPlan plan_meter(const preset::Preset& preset, const Settings& wanted, const scene::Scene& view,
                    const scene::Bvh& bvh);
 

@@ -42,16 +42,7 @@ scene::Scene lit_scene(const Prepared& prepared) {
                   similar.empty() ? "" : fmt::format("did you mean '{}'?", similar));
 }
 
-} // namespace
-
-photons::Settings meter_settings(const preset::Preset& preset) {
-  const auto* settings = std::any_cast<photons::Settings>(&preset.settings.value());
-  return settings ? *settings : photons::Settings();
-}
-
-Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only)
-    : prepared_(prepared) {
-  const preset::Preset& preset = prepared.preset;
+void require_meters(const preset::Preset& preset) {
   const Location where = Location(preset.source) / "scene" / "meters";
   if (!engine::engine_of(preset).has_scene)
     throw bad_input(Location(preset.source) / "engine",
@@ -60,6 +51,28 @@ Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, co
   if (preset.scene.meters.empty())
     throw bad_input(where, "is empty: there is nothing to measure", "expected a meter",
                     "add one: --set 'scene.meters=[{\"type\":\"surface\",\"name\":\"floor\",\"object\":\"floor\"}]'");
+}
+
+} // namespace
+
+photons::Settings meter_settings(const preset::Preset& preset) {
+  const auto* settings = std::any_cast<photons::Settings>(&preset.settings.value());
+  return settings ? *settings : photons::Settings();
+}
+
+void check_meters(const Prepared& prepared) {
+  const preset::Preset& preset = prepared.preset;
+  require_meters(preset);
+  const Location where = Location(preset.source) / "scene" / "meters";
+  for (std::size_t i = 0; i < preset.scene.meters.size(); ++i)
+    scene::make_meter(preset.scene.meters[i], prepared.loaded->scene, where / static_cast<int>(i));
+}
+
+Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only)
+    : prepared_(prepared) {
+  require_meters(prepared.preset);
+  const preset::Preset& preset = prepared.preset;
+  const Location where = Location(preset.source) / "scene" / "meters";
   const scene::Scene scene = lit_scene(prepared);
   range_ = scene.range;
   if (scene.environment && !scene.environment->about.empty()) notes_.push_back(sky_ = scene.environment->about);
@@ -71,13 +84,11 @@ Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, co
     MeterInHand& next = meters_.emplace_back();
     next.meter = meter;
     next.origin = scene.origin;
-    next.surface = scene::make_meter(meter, scene, where / static_cast<int>(i));
-    const scene::Scene view = scene::meter_view(scene, next.surface);
+    next.surface =
+        std::make_shared<const scene::MeterSurface>(scene::make_meter(meter, scene, where / static_cast<int>(i)));
+    const scene::Scene view = scene::meter_view(scene, *next.surface);
     next.plan = photons::plan_meter(preset, meter_settings(preset), view, *prepared.loaded->bvh);
-    if (next.plan.layers == 0)
-      throw bad_input(where / static_cast<int>(i),
-                      fmt::format("cannot measure anything: {}", next.plan.decisions.front().reason),
-                      "expected a scene with light");
+    if (next.is_dark()) notes_.push_back(fmt::format("{} is dark: {}", meter.name, next.plan.decisions.front().reason));
     require_memory(next.plan, view.camera.width, 1, context.device(), available_memory_bytes());
     next.run = photons::make_meter_run(preset, view, *prepared.loaded->bvh, next.plan, context);
   }
@@ -93,13 +104,49 @@ bool Metering::advance() {
   // one that is too small.
   next_ = (next_ + 1) % meters_.size();
   const auto cycles = static_cast<std::uint64_t>(meter.run->cycles());
-  const bool is_due = std::has_single_bit(cycles) || (cycles % 3 == 0 && std::has_single_bit(cycles / 3));
-  if (!is_due) return false;
+  const bool is_due =
+      !meter.reading || std::has_single_bit(cycles) || (cycles % 3 == 0 && std::has_single_bit(cycles / 3));
+  if (is_due) read(meter);
+  return is_due;
+}
+
+void Metering::read(MeterInHand& meter) {
   meter.seconds = meter.run->work_seconds();
   meter.photons = meter.run->photons();
   meter.reading =
-      meters::read(meter.meter, meter.surface, prepared_.loaded->scene.metres_per_unit, meter.run->layers());
-  return true;
+      meters::read(meter.meter, *meter.surface, prepared_.loaded->scene.metres_per_unit, meter.run->layers());
+  const meters::Numbers& numbers = meter.reading->all().numbers(meters::quantity_of(meter.meter.unit));
+  meter.history.push_back({meter.seconds, numbers.mean, numbers.peak});
+}
+
+bool Metering::all_read() const {
+  return std::ranges::all_of(meters_, [](const MeterInHand& meter) { return meter.reading.has_value(); });
+}
+
+meters::Readings Metering::readings() const {
+  meters::Readings readings{{}, range_, notes()};
+  for (const MeterInHand& meter : meters_) {
+    meters::Shown& shown = readings.meters.emplace_back();
+    shown.meter = meter.meter;
+    shown.surface = meter.surface;
+    shown.origin = meter.origin;
+    shown.metres_per_unit = prepared_.loaded->scene.metres_per_unit;
+    if (meter.reading) shown.reading = std::make_shared<const meters::Reading>(*meter.reading);
+    shown.seconds = meter.seconds;
+    shown.photons = meter.photons;
+    shown.lost_share = meter.run->lost_share();
+    shown.refused = meter.run->refused();
+    shown.history = meter.history;
+  }
+  return readings;
+}
+
+void Metering::serialize(tracing::Archive& archive) {
+  archive.value(next_);
+  for (MeterInHand& meter : meters_) {
+    meter.run->serialize(archive);
+    archive.list(meter.history);
+  }
 }
 
 bool Metering::is_enough(double percent) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The meters of a preset, measured: a cycle of each in turn.
 #pragma once
-#include "meters/reading.h"
+#include "meters/shown.h"
 #include "run/prepare.h"
 
 #include <memory>
@@ -13,15 +13,22 @@ namespace nephroid::run {
 /// A meter at work.
 struct MeterInHand {
   preset::Meter meter;
-  scene::MeterSurface surface;
-  glm::dvec3 origin{0}; ///< preset coordinates of the scene's (0, 0, 0)
+  std::shared_ptr<const scene::MeterSurface> surface; ///< never null
+  glm::dvec3 origin{0};                               ///< preset coordinates of the scene's (0, 0, 0)
   photons::RunPlan plan;
   std::unique_ptr<photons::MeterRun> run;
-  std::optional<meters::Reading> reading; ///< nothing before the first
-  double seconds = 0;                     ///< of work until the reading
-  std::uint64_t photons = 0;              ///< sent until then
-  double relative_half_width() const { return reading ? meters::relative_half_width(meter, *reading) : 1e9; }
+  std::optional<meters::Reading> reading;  ///< nothing before the first
+  double seconds = 0;                      ///< of work until the reading
+  std::uint64_t photons = 0;               ///< sent until then
+  std::vector<meters::HistoryRow> history; ///< of all readings
+  bool is_dark() const { return plan.layers == 0; }
+  double relative_half_width() const {
+    return is_dark() ? 0 : reading ? meters::relative_half_width(meter, *reading) : 1e9;
+  }
 };
+
+/// Throws bad_input where the preset has no meter, where its engine has no scene, and as scene::make_meter.
+void check_meters(const Prepared& prepared);
 
 class Metering {
 public:
@@ -31,10 +38,16 @@ public:
   Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only = {});
 
   /// Does a slice of about 30 ms of one of the meters, which take turns of a cycle. True where it has made a reading
-  /// anew: after cycles 1, 2, 3, 4, 6, 8, 12, ...
+  /// anew: after cycles 1, 2, 3, 4, 6, 8, 12, ..., and after the first one that ends.
   bool advance();
   /// Whether all have the intervals that they ask for, or `percent` where they ask for none.
   bool is_enough(double percent) const;
+  /// Whether each has a reading.
+  bool all_read() const;
+  /// What they show; reads the device.
+  meters::Readings readings() const;
+  /// Everything needed to go on later, but the readings: they come with the cycles in hand.
+  void serialize(tracing::Archive& archive);
   double work_seconds() const;
   /// Of what wavelengths the numbers are: of the solar range where a light reaches beyond the visible.
   optics::SpectralRange range() const { return range_; }
@@ -46,6 +59,8 @@ public:
   const Prepared& prepared() const { return prepared_; }
 
 private:
+  void read(MeterInHand& meter);
+
   Prepared prepared_;
   optics::SpectralRange range_ = optics::SpectralRange::visible;
   std::string sky_;

@@ -8,6 +8,7 @@
 #include "run/content.h"
 #include "run/exposure.h"
 #include "run/memory.h"
+#include "run/metered_job.h"
 #include "run/reference.h"
 #include "run/write_run.h"
 
@@ -89,7 +90,7 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
   if (!run.job) require_memory(prepared, context, options.ranks);
   const Communicator communicator(options.ranks);
   if (!communicator.is_root()) {
-    run.job = make_job(prepared, {context, communicator});
+    run.job = metered(make_job(prepared, {context, communicator}), prepared, {context, communicator}, nullptr);
     begin_frame(run, options);
     return;
   }
@@ -98,7 +99,8 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
   run.reference = reference_of(prepared, context, options);
   if (!run.job) {
     options.watch.begin("setting up the run");
-    run.job = make_job(prepared, {context, communicator});
+    const mpi::RankContext ranks(context, communicator);
+    run.job = metered(make_job(prepared, ranks), prepared, ranks, options.meter_share);
     if (!communicator.is_alone()) run.job = job::distributed(std::move(run.job), communicator);
     run.job = measure::measured(std::move(run.job), preset, run.reference, options.began, options.measure_at);
     run.name_in_job = preset.name;

@@ -6,6 +6,7 @@
 #include "measure/measured_job.h"
 #include "mpi/ranks.h"
 #include "run/folder.h"
+#include "run/metered_job.h"
 
 #include <chrono>
 #include <stop_token>
@@ -47,6 +48,7 @@ struct ReadyOptions {
   std::function<std::shared_ptr<const measure::Reference>(const Prepared&, const compute::Context&)> reference = {};
   /// Where there is a checkpoint that is bad input: throws, or lets the run begin anew. Null: throws that.
   std::function<void(const Error&)> bad_checkpoint = {};
+  MeterShare meter_share = nullptr; ///< as metered() takes it
 };
 
 /// Makes `run` ready for the preset, in place of what it was. An earlier run lends its scene, as prepare takes it, and

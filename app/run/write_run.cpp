@@ -13,6 +13,7 @@
 #include "report/report.h"
 #include "run/display.h"
 #include "run/folder.h"
+#include "run/meter_files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -247,6 +248,9 @@ void write_run(const fs::path& folder, const Prepared& prepared, const compute::
     write_file_whole(folder / files.emplace_back(curve.name + ".csv"), to_csv(curve));
   for (const job::ExtraFile& file : snapshot.files)
     write_file_whole(folder / files.emplace_back(file.name), file.write);
+  if (snapshot.meters)
+    for (const std::string& file : write_meters(folder / "meters", prepared.preset.name, *snapshot.meters))
+      files.push_back("meters/" + file);
   if (snapshot.history) write_history(folder, *snapshot.history);
   write_settings(folder, prepared);
   write_file_whole(folder / "run.json", run_json(prepared, device, snapshot, reference, pictures_at(folder), files,

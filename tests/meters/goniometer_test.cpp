@@ -40,7 +40,7 @@ Measured measured(const preset::Preset& p, int cycles = 4) {
   run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
   const run::MeterInHand& meter = metering.meters()[0];
   while (meter.run->cycles() < cycles || !meter.reading) metering.advance();
-  return {meter.surface, *meter.reading, meter.meter};
+  return {*meter.surface, *meter.reading, meter.meter};
 }
 
 const std::string spot = R"({"type": "spot", "position": [0, 1, 0], "direction": [0, -1, 0], "half_angle_deg": )";

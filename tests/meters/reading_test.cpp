@@ -173,14 +173,17 @@ TEST(MeterRun, PartsOfASurfaceAddUp) {
   EXPECT_LT(half, 0.05);
 }
 
-TEST(MeterRun, InTheDarkThereIsNothingToMeasure) {
+TEST(MeterRun, InTheDarkItMeasuresNought) {
   preset::Preset p = room(0.5);
   p.scene.lights.clear();
   const run::Prepared prepared = run::prepare(p);
-  EXPECT_THAT(refusal_of([&] {
-                run::Metering(prepared, {shared_context(), Communicator(nullptr)});
-              }),
-              HasSubstr("the scene has no light"));
+  run::Metering metering(prepared, {shared_context(), Communicator(nullptr)});
+  EXPECT_THAT(metering.notes(), Contains(AllOf(HasSubstr("walls is dark"), HasSubstr("the scene has no light"))));
+  ASSERT_TRUE(metering.advance());
+  EXPECT_TRUE(metering.is_enough(1));
+  const meters::Numbers& numbers = metering.meters()[0].reading->all().numbers(Quantity::irradiance);
+  EXPECT_EQ(numbers.peak.high, 0);
+  EXPECT_EQ(numbers.total.high, 0);
 }
 
 // A point's light on a cell is its power over 4 pi times the solid angle of the cell: of a cube's side a sixth.

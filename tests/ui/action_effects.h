@@ -94,6 +94,7 @@ inline void add_additions(Effects& all) {
   for (const char* light : {"Add lamp", "Add sun"}) all[light] = {{}, selects(Selection::Kind::light)};
   all["Add mesh..."] = {{}, asks(Question::add_mesh)};
   all["Add sky"] = {{}, selects(Selection::Kind::environment)};
+  all["Add meter"] = {{}, [](Desk& d) { return d.scene().meters.size() == 1; }};
   all["Add camera"] = {{}, selects(Selection::Kind::camera)};
 }
 

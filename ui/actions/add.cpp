@@ -3,6 +3,10 @@
 #include "ui/actions/table.h"
 #include "ui/state/additions.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace nephroid::ui {
 namespace {
 
@@ -31,6 +35,37 @@ void add_camera(C c) {
   c.push(command::Select{{Selection::Kind::camera, 0}});
 }
 
+/// The selected object, else the first matt one, else the first.
+std::optional<std::size_t> object_to_measure(C c) {
+  const preset::Scene& scene = c.preset()->scene;
+  if (c.selection().kind == Selection::Kind::object) return c.selection().index;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (const auto of = scene.materials.find(scene.objects[i].material);
+        of != scene.materials.end() && of->second.type == preset::Material::Type::diffuse)
+      return i;
+  return scene.objects.empty() ? std::nullopt : std::optional<std::size_t>(0);
+}
+
+void add_meter(C c) {
+  preset::Meter meter;
+  for (int number = 1; meter.name.empty(); ++number) {
+    const std::string name = fmt::format("meter {}", number);
+    if (std::ranges::count(c.preset()->scene.meters, name, &preset::Meter::name) == 0) meter.name = name;
+  }
+  const auto object = object_to_measure(c);
+  c.edit("Add meter", [&](preset::Preset& p) {
+    if (object) {
+      std::string& name = p.scene.objects[*object].name;
+      if (name.empty()) name = fmt::format("object {}", *object + 1);
+      meter.type = preset::Meter::Type::surface;
+      meter.object = name;
+    } else
+      meter.position = p.scene.camera.target;
+    p.scene.meters.push_back(meter);
+  });
+  c.push(command::ShowPanel{"meters"});
+}
+
 } // namespace
 
 std::vector<Action> add_actions() {
@@ -42,6 +77,8 @@ std::vector<Action> add_actions() {
       add_action("lamp", "A point light above the camera's target", Thing::lamp),
       add_action("sun", "Parallel light from a small disc", Thing::sun),
       add_action("sky", "Clear sky and sun, today at noon in Crete", Thing::sky),
+      {"Add meter", 0, "On the selected object, else on the first matt one; the panel Meters shows it", has_things,
+       add_meter, why_no_things},
       {"Add camera", 0, "One that sees all objects; the old one is bookmarked", has_things, add_camera, why_no_things},
   };
 }

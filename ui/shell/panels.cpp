@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "ui/error/panel.h"
 #include "ui/inspector/panel.h"
+#include "ui/meters/panel.h"
 #include "ui/parameters/panel.h"
 #include "ui/plan/panel.h"
 #include "ui/presets/panel.h"
@@ -30,6 +31,9 @@ std::vector<PanelEntry> make_table() {
            environment_panels,
        })
     for (const PanelEntry& entry : panels_of_engine()) table.push_back(entry);
+  PanelEntry meters{"meters", MetersPanel::title, "", make_panel<MetersPanel>};
+  meters.serves = [](const preset::Preset& preset) { return !preset.scene.meters.empty(); };
+  table.push_back(meters);
   table.insert(table.end(), {{"inspector", InspectorPanel::title, "", make_panel<InspectorPanel>},
                              {"plan", PlanPanel::title, "", make_panel<PlanPanel>},
                              {"presets", PresetsPanel::title, "", make_panel<PresetsPanel>}});

@@ -48,6 +48,12 @@ std::vector<Message> errors_or_notes(const std::vector<Message>& messages, bool 
   return chosen;
 }
 
+bool looks_at_meters(const Context& context) {
+  if (!context.view_state.view_settings.meter.empty()) return true;
+  const auto panel = std::ranges::find(panel_table(), "meters", &PanelEntry::name);
+  return panel != panel_table().end() && is_seen(*panel);
+}
+
 /// Over the foot of the panels, where they take neither room nor mouse: they go by themselves.
 void draw_notes_over_panels(std::span<const Message> notes) {
   if (notes.empty()) return;
@@ -108,6 +114,7 @@ Commands Workspace::draw(Workbench& workbench) {
   for (const Open& open : panels_)
     if (context.preset() && serves(open.entry, *context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
+  workbench.look_at_meters(looks_at_meters(context));
   guarded("notes", commands, [&] { draw_notes_over_panels(errors_or_notes(workbench.messages(), false)); });
   if (workbench.setup().help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });

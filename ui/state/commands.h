@@ -26,6 +26,7 @@ struct ViewSettings {
   bool fit = true;                          ///< the whole picture is in the panel; zoom and centre are not used then
   double zoom = 1;                          ///< screen pixels a picture pixel
   std::array<double, 2> centre{0, 0};       ///< the picture's point, in pixels, at the panel's middle
+  std::string meter;                        ///< the one whose map lies over the run's picture; empty or unknown: none
   bool operator==(const ViewSettings&) const = default;
 };
 

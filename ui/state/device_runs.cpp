@@ -65,7 +65,9 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch) {
   const auto reference = [&](const run::Prepared& prepared, const compute::Context& context) {
     return reference_of(prepared, context, notes);
   };
-  preset::at_origins(preset, [&] { run::make_ready(run_, preset, {.watch = watch, .reference = reference}); });
+  preset::at_origins(preset, [&] {
+    run::make_ready(run_, preset, {.watch = watch, .reference = reference, .meter_share = meter_share_});
+  });
   auto plan = std::make_shared<plan::Plan>(*run_.prepared->plan);
   plan->notes.insert(plan->notes.end(), notes.begin(), notes.end());
   SceneFacts facts;

@@ -31,6 +31,7 @@ public:
   }
   void reread_files() override { reread_ = true; }
   void reopen_device() override { reopen_ = true; }
+  void look_at_meters(bool on) override { *meter_share_ = on ? 0.5 : run::usual_meter_share; }
   /// True once after a file in the kernels folder has changed since the newest run was built.
   bool take_changed() override { return changed_.exchange(false); }
 
@@ -46,6 +47,7 @@ private:
   run::ReadyRun run_;                      ///< the newest one, without its job; the worker's thread only
   KeptLight kept_light_;                   ///< of run_'s jobs
   run::ReadyRun beside_;                   ///< the same of small pictures
+  std::shared_ptr<std::atomic<double>> meter_share_ = std::make_shared<std::atomic<double>>(run::usual_meter_share);
   std::atomic<bool> changed_{false}, reread_{false}, reopen_{false}, reopen_beside_{false};
   std::mutex watching_;                      ///< held while the folder is read
   std::optional<compute::KernelTimes> seen_; ///< by the newest run or check; nothing before the first run

@@ -48,6 +48,9 @@ public:
   /// which a run may have lost.
   virtual void reread_files() {}
   virtual void reopen_device() {}
+  /// Returns at once, from any thread: whether somebody looks at what the preset's meters show. Then they have half of
+  /// the runs' time, else run::usual_meter_share.
+  virtual void look_at_meters(bool) {}
   /// Returns at once, from any thread: true once after the kernels, which all runs use, have changed.
   virtual bool take_changed() = 0;
 };
@@ -92,6 +95,8 @@ public:
   void carry_out(const command::Pause& c) { worker_.pause(c.on); }
   /// As job::Worker::watch_spectrum.
   void watch_spectrum(std::optional<std::array<int, 2>> pixel) { worker_.watch_spectrum(pixel); }
+  /// As RunSource::look_at_meters.
+  void look_at_meters(bool on) { source_.look_at_meters(on); }
   /// Called once a frame: takes the newest snapshot and starts the run that edits ask for. edits: null before a preset
   /// is opened.
   void update(const UndoStack* edits);

@@ -48,6 +48,7 @@ ViewSettings read_view_settings(const Json& value) {
   view_settings.fit = value.at("fit").get<bool>();
   view_settings.zoom = within(value.at("zoom"), 1.0 / 1024, 1024);
   read_within(value.at("centre"), -1e6, 1e6, view_settings.centre);
+  view_settings.meter = value.value("meter", "");
   return view_settings;
 }
 
@@ -199,7 +200,8 @@ std::string SessionText::of(const Session& session) {
               {"tone", tones[view_settings.false_colour ? 1 : 0]},
               {"fit", view_settings.fit},
               {"zoom", view_settings.zoom},
-              {"centre", view_settings.centre}}},
+              {"centre", view_settings.centre},
+              {"meter", view_settings.meter}}},
             {"error_metric", session.view_state.error_metric},
             {"material", session.view_state.material}};
   if (view_settings.range) text["look"]["false_colour"] = {view_settings.range->low, view_settings.range->high};

@@ -49,6 +49,7 @@ public:
   const preset::Preset* preset() const { return document_.preset(); }
   const UndoStack* edits() const { return document_.edits(); }
   const RunInHand& run() const { return run_; }
+  void look_at_meters(bool on) { run_.look_at_meters(on); }
   const Comparing& comparing() const { return comparing_; }
   const SweepQueue& sweep() const { return sweep_; }
   const Playback& playback() const { return playback_; }

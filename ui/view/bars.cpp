@@ -229,6 +229,18 @@ void draw_scale(const Canvas& canvas, const std::string& title, std::span<const 
   }
 }
 
+/// From 0 to high, or from -high.
+void draw_linear_scale(const std::string& title, double high, bool is_signed, const Canvas& canvas) {
+  constexpr int numbers = 5;
+  std::vector<ScaleMark> marks;
+  for (int i = 0; i < numbers; ++i) {
+    const double position = static_cast<double>(i) / (numbers - 1);
+    marks.emplace_back(position, fmt::format("{:.3g}", high * (is_signed ? 2 * position - 1 : position)));
+  }
+  draw_scale(canvas, title, marks,
+             [&](float position) { return measure::map_colour(static_cast<double>(position), is_signed); });
+}
+
 } // namespace
 
 void go_to_bookmark(const Context& context, std::size_t index) {
@@ -364,15 +376,11 @@ void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas) {
 }
 
 void draw_difference_scale(const ShownDifference& map, const Canvas& canvas) {
-  const bool is_signed = measure::is_signed(map.of.metric);
-  constexpr int numbers = 5;
-  std::vector<ScaleMark> marks;
-  for (int i = 0; i < numbers; ++i) {
-    const double position = static_cast<double>(i) / (numbers - 1);
-    marks.emplace_back(position, fmt::format("{:.3g}", map.scale * (is_signed ? 2 * position - 1 : position)));
-  }
-  draw_scale(canvas, "", marks,
-             [&](float position) { return measure::map_colour(static_cast<double>(position), is_signed); });
+  draw_linear_scale("", map.scale, measure::is_signed(map.of.metric), canvas);
+}
+
+void draw_meter_scale(const std::string& unit, double high, const Canvas& canvas) {
+  draw_linear_scale(unit, high, false, canvas);
 }
 
 } // namespace nephroid::ui

@@ -151,12 +151,14 @@ void ViewPanel::draw(const Context& context) {
   take_line(context, area);
   first_.refresh(context, shown_);
   second_.refresh(context, beside_, shown_.rgb.empty() ? nullptr : &first_.tone);
+  map_.refresh(context);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, corner + size, true);
   draw_list->AddRectFilled(corner, corner + size, colour::surround);
   draw_pictures(context);
   if (const auto& map = context.comparing.difference(); map && map == shown_.owner) draw_difference_scale(*map, area);
   if (!shown_.rgb.empty() && first_.tone.false_colour) draw_luminance_scale(*first_.tone.false_colour, area);
+  if (map_.is_shown()) draw_meter_scale(map_.unit(), map_.high(), area);
   draw_pixel_value(context, area);
   draw_list->PopClipRect();
 }
@@ -208,6 +210,7 @@ void ViewPanel::draw_pictures(const Context& context) {
   };
   within(areas_.first, [&] {
     first_.draw(shown_, first);
+    map_.draw(first);
     draw_lines(context, first, shown_.size);
     overlay_.draw(context, areas_.canvas, shown_.size, hovered_ && !on_second_);
   });

@@ -3,6 +3,7 @@
 // at a line. The mouse moves the camera (edits of the preset) or the pictures in the panel (view settings);
 // docs/keys.md says which does what.
 #pragma once
+#include "ui/meters/on_picture.h"
 #include "ui/view/gizmo.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
@@ -62,6 +63,7 @@ public:
   double shift() const { return areas_.shift; }
   std::string pixel_value() const { return pixel_value_; }
   const SceneOverlay& overlay() const { return overlay_; }
+  const MapOnPicture& map() const { return map_; }
 
 private:
   enum class Drag { none, orbit, pan, dolly, move_picture, mark };
@@ -88,6 +90,7 @@ private:
   std::string pixel_value_;
 
   SceneOverlay overlay_;
+  MapOnPicture map_;
   BarRows bars_;
 
   Drag drag_ = Drag::none;
