@@ -19,8 +19,8 @@ constexpr const char* preset_text = R"({"engine": "spectral", "white": 50, "stop
   "scene": {"camera": {"position": [0, 4, 0], "target": [0, 0, 0], "up": [0, 0, -1], "projection": "orthographic",
                        "height": 2, "resolution": [16, 16]},
     "materials": {"white": {"type": "diffuse", "reflectance": 0.5}, "black": {"type": "diffuse", "reflectance": 0}},
-    "objects": [{"name": "floor", "shape": {"type": "quad", "size": [2, 2]}, "material": "white"},
-                {"name": "plate", "shape": {"type": "quad", "size": [2, 4]}, "material": "black",
+    "objects": [{"name": "floor", "shape": {"type": "quad", "size": [2, 1, 2]}, "material": "white"},
+                {"name": "plate", "shape": {"type": "quad", "size": [2, 1, 4]}, "material": "black",
                  "transform": {"translate": [1, 1, 0]}}],
     "lights": [{"type": "directional", "direction": [0, -1, 0], "irradiance_w_m2": 100}],
     "meters": [{"type": "surface", "name": "floor", "object": "floor", "cell": 0.5, "threshold": "50 W/m^2"}]}})";

@@ -4,7 +4,7 @@
 #include "meters/intervals.h"
 #include "preset/choices.h"
 #include "preset/meters.h"
-#include "ui/view/bars.h"
+#include "ui/widgets/colour_scale.h"
 #include "ui/widgets/plots.h"
 
 #include <fmt/format.h>
@@ -197,8 +197,7 @@ void MetersPanel::draw_map(const Context&) {
   ImGui::InvisibleButton("map", size);
   places_.note("map");
   texture_.draw(corner, corner + size, scaled * static_cast<float>(zoom_) >= 3);
-  draw_meter_scale(std::string(preset::word(unit_now_)), high_,
-                   {{corner.x, corner.y}, {ImGui::GetContentRegionAvail().x, size.y}});
+  draw_linear_scale(corner, {ImGui::GetContentRegionAvail().x, size.y}, std::string(preset::word(unit_now_)), high_);
   if (ImGui::IsItemHovered()) {
     const ImVec2 at = (ImGui::GetIO().MousePos - corner) / scaled;
     const int column = std::clamp(static_cast<int>(at.x) / zoom_, 0, map_.width - 1),

@@ -38,7 +38,5 @@ void draw_overlay(const ImVec2& at, const std::string& text);
 /// Draws the scale of luminance in W/m^2/sr, and the colours of values that are no luminance.
 void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas);
 void draw_difference_scale(const ShownDifference& map, const Canvas& canvas);
-/// Draws the scale of a meter's map, from 0 to `high` of a unit.
-void draw_meter_scale(const std::string& unit, double high, const Canvas& canvas);
 
 } // namespace nephroid::ui

@@ -3,6 +3,7 @@
 
 #include "engine/engine.h"
 #include "ui/view/bars.h"
+#include "ui/widgets/colour_scale.h"
 
 #include <imgui_internal.h>
 
@@ -158,7 +159,7 @@ void ViewPanel::draw(const Context& context) {
   draw_pictures(context);
   if (const auto& map = context.comparing.difference(); map && map == shown_.owner) draw_difference_scale(*map, area);
   if (!shown_.rgb.empty() && first_.tone.false_colour) draw_luminance_scale(*first_.tone.false_colour, area);
-  if (map_.is_shown()) draw_meter_scale(map_.unit(), map_.high(), area);
+  if (map_.is_shown()) draw_linear_scale(vec(area.corner), vec(area.size), map_.unit(), map_.high());
   draw_pixel_value(context, area);
   draw_list->PopClipRect();
 }

@@ -3,8 +3,8 @@
 // at a line. The mouse moves the camera (edits of the preset) or the pictures in the panel (view settings);
 // docs/keys.md says which does what.
 #pragma once
-#include "ui/meters/on_picture.h"
 #include "ui/view/gizmo.h"
+#include "ui/view/meter_map.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/picture_texture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/meters/on_picture.h"
+#include "ui/view/meter_map.h"
 
 #include "meters/in_picture.h"
 #include "meters/shown.h"
