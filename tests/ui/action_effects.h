@@ -287,6 +287,11 @@ inline bool in_front(const char* title) {
 /// What can be closed is closed; the picture comes to the front.
 inline Effect of_panel(const PanelEntry& entry) {
   const auto prepare = [entry](Desk& d) {
+    if (entry.name == "meters") {
+      preset::Preset preset = d.preset();
+      preset.scene.meters = {{.name = "air"}};
+      d.apply(command::Edit{"Add a meter", std::move(preset)});
+    }
     for (const engine::Engine* engine : engine::engines())
       if (!serves(entry, d.preset())) d.apply(command::New{engine->introduction.new_scene.preset});
     d.apply(command::ShowPanel{can_close(entry) ? std::string(entry.name) : "plan", true});
