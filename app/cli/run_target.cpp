@@ -7,6 +7,7 @@
 #include "base/json_output.h"
 #include "cli/progress.h"
 #include "run/animation.h"
+#include "run/meter_files.h"
 #include "run/recorder.h"
 #include "run/reference.h"
 #include "run/write_run.h"
@@ -166,11 +167,18 @@ private:
   std::optional<ProgressDisplay> display_;
 };
 
+void say_meters(const RunOptions& options, const Target& target, const meters::Readings& readings) {
+  for (const std::string& note : readings.notes) fmt::print(stderr, "note: {}: meters: {}\n", target.label, note);
+  if (options.json) return;
+  for (const std::string& line : run::summary(readings)) fmt::print("{}\n", line);
+}
+
 /// Throws if the run was interrupted or has no picture.
 void say_end(const RunOptions& options, const Target& target, const job::Job& job, const Console& console) {
   const job::Snapshot& last = console.last();
   const job::Progress& progress = last.progress;
   report_result(options, target, progress, console.is_finished());
+  if (last.meters) say_meters(options, target, *last.meters);
   for (const std::string& warning : last.warnings) fmt::print(stderr, "note: {}: {}\n", target.label, warning);
   if (job.finished() && last.stands_in)
     throw failed(target.folder.string(), "the run ended before its first picture, after " + where_time_went(last),
