@@ -66,7 +66,8 @@ Interval extreme(const CellValues& values_of, const std::vector<double>& means, 
     }
     std::optional<std::size_t> chosen;
     for (std::size_t cell = 0; cell < means.size(); ++cell)
-      if (std::abs(chosen_by[cell] - best) <= 2 * rounding * best && (!chosen || better(means[cell], means[*chosen])))
+      if (std::abs(chosen_by[cell] - best) <= 2 * rounding * std::abs(best) &&
+          (!chosen || better(means[cell], means[*chosen])))
         chosen = cell;
     std::array<double, half> values;
     double of_half = 0;

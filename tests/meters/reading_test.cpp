@@ -67,6 +67,14 @@ TEST(MeterReading, ThePeakOfNoisyCellsIsNotItsNoise) {
   }
 }
 
+// Noise of colour makes cells with little light negative now and then.
+TEST(MeterReading, CellsBelowNothingAreRead) {
+  std::mt19937 random(4);
+  const meters::Reading reading = noisy_reading({-1, -2, -3}, 0, random);
+  EXPECT_EQ(reading.all().numbers(Quantity::irradiance).peak.value, -1);
+  EXPECT_EQ(reading.all().numbers(Quantity::irradiance).least.value, -3);
+}
+
 TEST(MeterReading, WhatHasNoNoiseHasTheRoundingAlone) {
   std::mt19937 random(3);
   Meter meter;
