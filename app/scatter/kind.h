@@ -22,6 +22,8 @@ struct Loading {
   std::vector<std::string>& warnings;
 
   void warn(const std::string& note) const;
+  /// Warns where the range reaches beyond the data of a field, whose ends are held.
+  void known_from(const std::string& field, double low_nm, double high_nm) const;
   /// Calls sample(curve, what to do outside of its range), at the field, and warns of what is outside.
   void curve(const preset::Dispersion& dispersion, const Location& field,
              const std::function<void(const optics::DispersionCurve&, optics::Extrapolation)>& sample) const;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace nephroid::scatter {
 
@@ -42,10 +43,21 @@ void Loading::curve(const preset::Dispersion& dispersion, const Location& field,
   if (const std::string note = optics::outside_note(data, outside, range); !note.empty()) warn(note);
 }
 
+void Loading::known_from(const std::string& field, double low_nm, double high_nm) const {
+  const optics::Spectrum& nm = optics::cells(range).nm;
+  if (low_nm > nm.front() || high_nm < nm.back())
+    warn(fmt::format("its {} is known from {:g} to {:g} nm alone; beyond, the values at the ends are taken", field,
+                     low_nm, high_nm));
+}
+
 optics::Spectrum Loading::spectrum(const preset::Reflectance& reflectance, const char* field) const {
-  if (range != optics::SpectralRange::visible && reflectance.type != preset::Reflectance::Type::constant)
-    warn(fmt::format("its {} is known from {} alone; beyond, the values at the ends are taken", field,
-                     text_of(optics::SpectralRange::visible)));
+  using Type = preset::Reflectance::Type;
+  if (range != optics::SpectralRange::visible && reflectance.type == Type::patch)
+    known_from(field, optics::first_nm, optics::last_nm);
+  if (range != optics::SpectralRange::visible && reflectance.type == Type::table) {
+    const auto [low, high] = std::ranges::minmax(reflectance.table | std::views::elements<0>);
+    known_from(field, low, high);
+  }
   return make_reflectance(reflectance, where / field, range);
 }
 
