@@ -49,6 +49,7 @@ bool object_shines(const Settings&, const scene::Scene& scene) {
 
 constexpr Demand rough{"a rough surface", of_materials<scatter::is_rough>};
 constexpr Demand coating{"a coating", of_materials<scatter::is_coated>};
+constexpr Demand glazing{"a glazing", of_materials<scatter::is_tabulated>};
 constexpr Demand plastic{"plastic", of_materials<scatter::has_coat>};
 constexpr Demand texture{"a texture", of_materials<scatter::has_pictures>};
 constexpr Demand shining{"an object that shines", object_shines};
@@ -74,6 +75,7 @@ struct Limit {
 };
 
 constexpr Limit limits_of_layers[] = {{coating, "splits the wavelengths of a cluster, which a layer holds together"},
+                                      {glazing, "leaves each wavelength another part, and a layer is of one loss"},
                                       {plastic, "reflects a part of the light, and a layer holds what is scattered"},
                                       {texture, "has many colours, and a layer is of one"},
                                       {shining, "sends light of its own, and a layer holds what is scattered"},

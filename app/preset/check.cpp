@@ -63,14 +63,26 @@ void check_dispersion(const Dispersion& d, const std::string& pointer, const Whe
     check_rows(d.table, child(pointer, "table"), where);
 }
 
+void check_reflectance(const Reflectance& reflectance, const std::string& pointer, const Where& where) {
+  if (reflectance.type == Reflectance::Type::table) check_rows(reflectance.table, child(pointer, "table"), where);
+}
+
+void check_pane(const Pane& p, const std::string& pointer, const Where& where) {
+  check_dispersion(p.dispersion, child(pointer, "dispersion"), where);
+  check_reflectance(p.tint, child(pointer, "tint"), where);
+  check_reflectance(p.transmittance, child(pointer, "transmittance"), where);
+  check_reflectance(p.front_reflectance, child(pointer, "front_reflectance"), where);
+  check_reflectance(p.back_reflectance, child(pointer, "back_reflectance"), where);
+  for (const auto& [films, field] : {std::pair(&p.front_films, "front_films"), {&p.back_films, "back_films"}})
+    for (std::size_t i = 0; i < films->size(); ++i)
+      check_dispersion((*films)[i].dispersion, child(child(child(pointer, field), i), "dispersion"), where);
+}
+
 void check_material(const Material& m, const std::string& pointer, const Where& where) {
-  const auto check_reflectance = [&](const Reflectance& reflectance, const char* field) {
-    if (reflectance.type == Reflectance::Type::table)
-      check_rows(reflectance.table, child(child(pointer, field), "table"), where);
-  };
-  check_reflectance(m.reflectance, "reflectance");
+  check_reflectance(m.reflectance, child(pointer, "reflectance"), where);
   check_dispersion(m.dispersion, child(pointer, "dispersion"), where);
-  check_reflectance(m.tint, "tint");
+  check_reflectance(m.tint, child(pointer, "tint"), where);
+  for (std::size_t i = 0; i < m.panes.size(); ++i) check_pane(m.panes[i], child(child(pointer, "panes"), i), where);
   if (m.coating) check_dispersion(m.coating->dispersion, child(child(pointer, "coating"), "dispersion"), where);
 }
 

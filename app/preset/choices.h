@@ -46,6 +46,12 @@ inline constexpr Choice<Texture::Wrap> choices<Texture::Wrap>[] = {
     {Texture::Wrap::mirror, "mirror", "The picture again, every second one mirrored."},
     {Texture::Wrap::clamp, "clamp", "The colour at the edge."}};
 
+template <>
+inline constexpr Choice<Pane::Type> choices<Pane::Type>[] = {
+    {Pane::Type::glass, "glass", "By its glass, its thickness and the thin layers on its faces."},
+    {Pane::Type::measured, "measured", "By what it reflects and lets pass straight on: numbers or tables."},
+    {Pane::Type::file, "file", "By a file of what it reflects and lets pass straight on."}};
+
 /// What the material's own file says, app/scatter/NAME.cpp.
 std::string_view sentence_of(Material::Type type);
 

@@ -25,6 +25,7 @@ void describe(Fields& v, LightSpectrum& s);
 void describe(Fields& v, Reflectance& r);
 void describe(Fields& v, Texture& t);
 void describe(Fields& v, Coating& c);
+void describe(Fields& v, Pane& p);
 void describe(Fields& v, Material& m); // each type's fields are in its own file: app/scatter/material.cpp
 void describe(Fields& v, Light& l);    // app/lights has it
 void describe(Fields& v, PlaceAndTime& p);

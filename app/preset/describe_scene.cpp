@@ -103,6 +103,35 @@ void describe(Fields& v, Coating& c) {
           {.unit = "nm", .bounds = within(0, 20000), .required = true});
 }
 
+void describe(Fields& v, Pane& p) {
+  v.about("Pane", "A pane of a glazing.");
+  v.shorthand(BareValue::number, Pane::Type::glass, "thickness_mm");
+  v.shorthand(BareValue::text, Pane::Type::file, "file");
+  using Type = Pane::Type;
+  v.type("type", "How the pane is known.", p.type);
+  if (p.type == Type::glass) {
+    v.field("thickness_mm", "The pane's thickness.", p.thickness_mm, {.unit = "mm", .bounds = within(0.01, 1000)});
+    v.field("dispersion", "The glass: its n, and its k where the data have it. A number, a file or an object.",
+            p.dispersion);
+    v.field("tint", "Part of the light that the straight way through the glass leaves, besides what k takes.", p.tint);
+    v.field("front_films", "Thin layers on its front, from the front to the back.", p.front_films, {.count = {0, 20}});
+    v.field("back_films", "Thin layers on its back, from the front to the back.", p.back_films, {.count = {0, 20}});
+    return;
+  }
+  if (p.type == Type::measured) {
+    v.field("transmittance", "Part of the light that passes straight on.", p.transmittance, {.required = true});
+    v.field("front_reflectance", "Part of the light from the front that comes back.", p.front_reflectance,
+            {.required = true});
+    v.field("back_reflectance", "Part of the light from the back that comes back.", p.back_reflectance,
+            {.required = true});
+  } else
+    v.field("file", "A text of rows, as IGDB has them: wavelength in nm or um, transmittance, front, back reflectance.",
+            p.file, {.text = Text::file, .required = true});
+  v.field("flipped", "Whether it is the other way round: the data's front is at the back.", p.flipped);
+  v.field("coated", "Whether a face has a coating; if not, angles are by the index and absorption that the data give.",
+          p.coated);
+}
+
 void describe(Fields& v, Transform& t) {
   v.about("Transform", "Scale, then rotate (about x, then y, then z), then translate.");
   v.field("scale", "Factors along x, y and z; not 0, negative ones mirror.", t.scale, {.bounds = within(-1e6, 1e6)});

@@ -80,6 +80,25 @@ struct Coating {
   bool operator==(const Coating&) const = default;
 };
 
+/// A pane of a glazing, from its front, which its surface's normal looks to, to its back. JSON: a number (mm of clear
+/// glass), a string (a file of measured parts) or an object with "type".
+struct Pane {
+  enum class Type { glass, measured, file };
+  Type type = Type::glass;
+  double thickness_mm = 4; ///< glass
+  /// glass: n, and k where the data have it
+  Dispersion dispersion{Dispersion::Type::file, 1.5, "soda-lime-clear", {}, {}, {}, {}, Extrapolation::automatic};
+  Reflectance tint{Reflectance::Type::constant, 1, {}, {}}; ///< glass: what a straight way through leaves besides
+  std::vector<Coating> front_films, back_films;             ///< glass: on its faces, each from the front to the back
+  Reflectance transmittance{Reflectance::Type::constant, 0.8, {}, {}};     ///< measured, straight on, as the next two
+  Reflectance front_reflectance{Reflectance::Type::constant, 0.1, {}, {}}; ///< measured: of light from the front
+  Reflectance back_reflectance{Reflectance::Type::constant, 0.1, {}, {}};  ///< measured: of light from the back
+  std::string file;     ///< file: rows of wavelength, transmittance, front and back reflectance
+  bool flipped = false; ///< measured, file: what is said of its front is of its back
+  bool coated = true;   ///< measured, file: a face has a coating
+  bool operator==(const Pane&) const = default;
+};
+
 struct Material {
 #define NEPHROID_MATERIAL_WORD(word, NAME, lobes) word,
   enum class Type { MATERIALS(NEPHROID_MATERIAL_WORD) };
@@ -99,10 +118,11 @@ struct Material {
   std::optional<Texture> normal_map;        ///< diffuse: red, green, blue are (1 + the normal's part along x, y, z) / 2
   double normal_scale = 1;                  ///< diffuse: of the map's x and y
   std::optional<Coating> coating;           ///< dielectric, not thin
+  std::vector<Pane> panes{Pane{}};          ///< glazing: from its front to its back
   bool operator==(const Material&) const = default;
 };
 
-/// LOBE_* of kernels/scatter/material_types.h.
+/// LOBE_* and IS_PANE of kernels/scatter/material_types.h.
 constexpr unsigned lobes(Material::Type type) {
 #define NEPHROID_MATERIAL_LOBES(word, NAME, lobes) lobes,
   constexpr unsigned of_type[] = {MATERIALS(NEPHROID_MATERIAL_LOBES)};
@@ -118,6 +138,9 @@ constexpr bool is_matt(Material::Type type) { return (lobes(type) & LOBE_DIFFUSE
 
 /// Whether light passes the surface.
 constexpr bool is_refractive(Material::Type type) { return (lobes(type) & LOBE_TRANSMISSION) != 0; }
+
+/// Whether a closed object of it is a body that fills space.
+constexpr bool is_body(const Material& m) { return is_refractive(m.type) && !m.thin && (lobes(m.type) & IS_PANE) == 0; }
 
 /// Applied in the order scale, rotate (about x, then y, then z), translate.
 struct Transform {

@@ -35,6 +35,8 @@ struct Material {
   optics::SpectralRange range = optics::SpectralRange::visible; ///< of its spectra
   double coating_nm = 0;                                        ///< thickness of a film with interference; 0: none
   optics::Spectrum coating_n{};
+  /// What passes and is reflected by angle and wavelength, as kernels/scatter/glazing.h reads it; empty: by the rest.
+  std::vector<double> by_angle;
 };
 
 /// Whether a clear coat reflects a part of the light above a matt base: a path takes one of both.
@@ -71,6 +73,9 @@ inline bool is_coated(const Material& material) { return material.coating_nm > 0
 
 /// Whether light passes its surface in other directions by wavelength.
 bool disperses(const Material& material);
+
+/// Whether a table says what it reflects and lets pass of each wavelength at each angle.
+inline bool is_tabulated(const Material& material) { return !material.by_angle.empty(); }
 
 /// Whether its surface bends or reflects each wavelength otherwise, which splits a path.
 inline bool splits_wavelengths(const Material& material) { return disperses(material) || is_coated(material); }

@@ -21,7 +21,7 @@ static inline bool is_material(const DeviceMaterial* material, int type) {
 // LOBE_* of a material.
 static inline uint lobes_of(const DeviceMaterial* material) {
   uint of_material = 0u;
-#define ADD_LOBES(word, NAME, lobes) of_material |= is_material(material, MATERIAL_##NAME) ? (lobes) : 0u;
+#define ADD_LOBES(word, NAME, lobes) of_material |= is_material(material, MATERIAL_##NAME) ? (lobes) & LOBES_ALL : 0u;
   MATERIALS(ADD_LOBES)
 #undef ADD_LOBES
   return of_material;

@@ -9,6 +9,8 @@
 #define LOBE_REFLECTION 2u   // in one direction, or about it where the surface is rough
 #define LOBE_TRANSMISSION 4u // the same, through the surface
 #define LOBES_ALL 7u
+// Beside the lobes: a surface without thickness, which light passes straight on.
+#define IS_PANE 8u
 
 // clang-format off
 #define MATERIALS(MATERIAL) \
@@ -17,7 +19,8 @@
   MATERIAL(mirror, MIRROR, LOBE_REFLECTION) \
   MATERIAL(conductor, CONDUCTOR, LOBE_REFLECTION) \
   MATERIAL(plastic, PLASTIC, LOBE_DIFFUSE | LOBE_REFLECTION) \
-  MATERIAL(varnished_metal, VARNISHED_METAL, LOBE_REFLECTION)
+  MATERIAL(varnished_metal, VARNISHED_METAL, LOBE_REFLECTION) \
+  MATERIAL(glazing, GLAZING, LOBE_REFLECTION | LOBE_TRANSMISSION | IS_PANE)
 // clang-format on
 
 #define MATERIAL_NUMBER(word, NAME, lobes) MATERIAL_##NAME,

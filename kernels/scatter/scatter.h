@@ -12,6 +12,7 @@
 #include "kernels/scatter/conductor.h"
 #include "kernels/scatter/dielectric.h"
 #include "kernels/scatter/diffuse.h"
+#include "kernels/scatter/glazing.h"
 #include "kernels/scatter/microfacet.h"
 #include "kernels/scatter/mirror.h"
 #include "kernels/scatter/plastic.h"

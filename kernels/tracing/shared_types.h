@@ -58,13 +58,20 @@ struct alignas(8) uint2 {
 #define COAT_PARTS 2
 #define COAT_COSINES 256
 
+// What the table surface_data has of a glazing (scatter/glazing.h): a row for each of GLAZING_ANGLES angles, at the
+// cosines (i / (GLAZING_ANGLES - 1))^2. In a row: what passes; what is reflected of light from the front; of light from
+// the back. Each is 401 parts by wavelength, then their mean in sunlight.
+#define GLAZING_ANGLES 48
+#define GLAZING_PARTS (WAVELENGTH_COUNT + 1)
+#define GLAZING_ROW (3 * GLAZING_PARTS)
+
 typedef struct {
   int type;            // MATERIAL_*
   int reflector;       // matt, tint with a texture: row of the reflectance tables; with a texture its red, green and
                        // blue rows follow
   int attenuator;      // absorbing dielectric, mirror: row of the attenuation table; -1: none
   int tint;            // dielectric: row of the attenuation table for what passes its surface; -1: none, or a texture
-  int surface_first;   // metal, coated dielectric, plastic: its first item in the table surface_data; -1: none. A
+  int surface_first;   // metal, coated dielectric, plastic, glazing: its first item in surface_data; -1: none. A
                        // coating has its 401 indices there, then its thickness in each wavelength
   int is_thin;         // dielectric: a pane without thickness
   float alpha;         // of GGX (scatter/microfacet.h); 0: polished

@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MapEstimators,
 TEST(ReceiverLight, AWindowShowsWhatTheFilmHas) {
   preset::Preset p = empty_preset(64);
   p.scene.materials = {{"glass", glass(1.5)}, {"air", glass(1.00001)}, {"white", white()}};
-  p.scene.objects = {object("ball", sphere(1), "glass", at({0, 1.4, 0})), object("floor", quad(10, 10), "white"),
+  p.scene.objects = {object("ball", check::ball(1), "glass", at({0, 1.4, 0})), object("floor", quad(10, 10), "white"),
                      object("window", box(1, 1, 0.01), "air", at({2.2, 3.6, 2.4}))};
   p.scene.lights = {parallel_light({0.3, -1, 0.5})};
   p.scene.camera.position = {0.6, 3, 4};

@@ -84,8 +84,22 @@ inline preset::Preset random_preset(std::uint64_t seed) {
   for (auto& [name, m] : p.scene.materials) {
     Coating none, &coating = m.coating ? *m.coating : none;
     for (Dispersion* d : {&m.dispersion, &coating.dispersion}) d->c_um2.resize(d->b.size(), 0.01);
+    const auto rise = [](auto& table) {
+      for (std::size_t i = 0; i < table.size(); ++i) table[i][0] = 400.0 + static_cast<double>(i) / 3;
+    };
     for (auto* table : {&m.dispersion.table, &coating.dispersion.table, &m.reflectance.table, &m.tint.table})
-      for (std::size_t i = 0; i < table->size(); ++i) (*table)[i][0] = 400.0 + static_cast<double>(i) / 3;
+      rise(*table);
+    for (Pane& pane : m.panes) {
+      pane.dispersion.c_um2.resize(pane.dispersion.b.size(), 0.01);
+      rise(pane.dispersion.table);
+      for (Reflectance* r : {&pane.tint, &pane.transmittance, &pane.front_reflectance, &pane.back_reflectance})
+        rise(r->table);
+      for (auto* films : {&pane.front_films, &pane.back_films})
+        for (Coating& film : *films) {
+          film.dispersion.c_um2.resize(film.dispersion.b.size(), 0.01);
+          rise(film.dispersion.table);
+        }
+    }
   }
   for (Object& o : p.scene.objects) {
     o.material = p.scene.materials.begin()->first;

@@ -36,9 +36,10 @@ TEST(Materials, FlagsAndRowsFollowFromLobes) {
     const shared::DeviceMaterial& row = tables.materials[i];
     const unsigned lobes = preset::lobes(m.type);
     EXPECT_EQ(row.type, static_cast<int>(i)) << "the numbers of kernels are the words' places";
-    EXPECT_EQ(is_body(m), (lobes & LOBE_TRANSMISSION) != 0) << "a pane is made by a field";
+    EXPECT_EQ(is_body(m), (lobes & LOBE_TRANSMISSION) != 0 && (lobes & IS_PANE) == 0) << "else a field makes a pane";
     EXPECT_EQ(has_coat(m), (lobes & LOBE_DIFFUSE) != 0 && (lobes & LOBE_REFLECTION) != 0);
-    EXPECT_FALSE(is_rough(m) || has_pictures(m) || is_coated(m) || is_tinted(m)) << "as no field asks for it";
+    EXPECT_FALSE(is_rough(m) || has_pictures(m) || is_coated(m)) << "as no field asks for it";
+    EXPECT_EQ(is_tinted(m), is_tabulated(m)) << "panes are of glass that absorbs, unless a field says otherwise";
     EXPECT_EQ(gltf_surface(m).transmits, (lobes & LOBE_TRANSMISSION) != 0);
     EXPECT_EQ(gltf_surface(m).metallic, lobes == LOBE_REFLECTION ? 1 : 0);
   }

@@ -288,7 +288,7 @@ glm::dvec3 free_place(const preset::Preset& preset, const glm::dvec3& size) {
 
 std::string glass_of(preset::Scene& scene) {
   for (const auto& [name, material] : scene.materials)
-    if (is_refractive(material.type) && !material.thin) return name;
+    if (is_body(material)) return name;
   const std::string name = untaken_name("glass", [&](const std::string& n) { return scene.materials.contains(n); });
   preset::Material& glass = scene.materials[name];
   glass.type = preset::Material::Type::dielectric;

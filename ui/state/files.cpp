@@ -207,7 +207,7 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh) {
   object.mesh = mesh.file.string();
   object.material = material_for(scene);
   const preset::Material& material = scene.materials.at(object.material);
-  const bool body = is_refractive(material.type) && !material.thin;
+  const bool body = is_body(material);
   if (body && !mesh.closed && scene.damaged_meshes == preset::Scene::DamagedMeshes::refuse)
     throw bad_input(mesh.file.string(), "is not closed, so it cannot be of '" + object.material + "', a dielectric",
                     "a closed mesh, as the preset's damaged_meshes is \"refuse\"",

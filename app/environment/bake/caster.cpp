@@ -343,6 +343,7 @@ std::uint64_t bake_key(const preset::Preset& preset, const Caster& caster) {
     for (const optics::Spectrum* spectrum :
          {&material.n, &material.k, &material.reflectance, &material.tint, &material.coating_n})
       hash = hash_items(*spectrum, hash);
+    hash = hash_items(material.by_angle, hash);
     if (material.texture) hash = hash_texture(*material.texture, hash_of("texture", hash));
     if (material.roughness_texture) hash = hash_texture(*material.roughness_texture, hash_of("roughness", hash));
   }
