@@ -110,6 +110,49 @@ def through_pane(angle_deg, n=1.5, is_thin=False):
     return sum((1 - r) / (1 + r) for r in kinds) / len(kinds)
 
 
+# Panes of a glazing: (n, the part that a straight way through the glass leaves) or, coated, (transmittance, front and
+# back reflectance) straight on.
+CLEAR_TWO = ((1.5, 1), (1.5, 1))
+SOLAR_CONTROL = ((0.5, 0.3, 0.25), (1.52, 0.93))
+
+
+def through_face(r):
+    return numpy.array([[1 - 2 * r, r], [-r, 1]]) / (1 - r)
+
+
+def glazing(panes, cosine):
+    """What passes and what comes back from the front: by matrices of the light that goes on and back, each polarisation
+    through all panes. Coated: regressions on clear or bronze glass (EnergyPlus, Engineering Reference)."""
+    parts = numpy.zeros(2)
+    for polarisation in (0, 1):
+        unit = numpy.eye(2)  # (on, back) before the panes of those behind
+        for pane in panes:
+            if len(pane) == 2:
+                n, left = pane
+                face = through_face(fresnel(cosine, n)[polarisation])
+                left = left ** (1 / math.sqrt(1 - (1 - cosine ** 2) / n ** 2))
+                # A face as seen from its other side is the same, as its reflectance is.
+                unit = unit @ numpy.linalg.inv(face @ numpy.diag((left, 1 / left)) @ face)
+                continue
+            t, front, back = pane
+            of_t = (-0.0015, 3.355, -3.84, 1.46, 0.0288) if t > 0.645 else (-0.002, 2.813, -2.341, -0.05725, 0.599)
+            of_sum = (0.999, -0.563, 2.043, -2.532, 1.054) if t > 0.645 else (0.997, -1.868, 6.513, -7.862, 3.225)
+            fall, total = (numpy.polynomial.polynomial.polyval((cosine, 1), a) for a in (of_t, of_sum))
+            rise = total - fall
+            grows = max((rise[0] - rise[1]) / (1 - rise[1]), 0)
+            t, front, back = t * max(fall[0] / fall[1], 0), front + (1 - front) * grows, back + (1 - back) * grows
+            unit = unit @ numpy.linalg.inv(numpy.array([[t * t - front * back, back], [-front, 1]]) / t)
+        parts += numpy.array((1, unit[1, 0])) / unit[0, 0] / 2
+    return parts
+
+
+def glazing_material(panes):
+    return {"type": "glazing", "panes": [
+        {"type": "glass", "dispersion": pane[0], "tint": pane[1]} if len(pane) == 2 else
+        {"type": "measured", "transmittance": pane[0], "front_reflectance": pane[1], "back_reflectance": pane[2]}
+        for pane in panes]}
+
+
 def under_ball(radius, n, floor, half, cells, orders=5, steps=6000):
     """W/m^2 on square cells under a ball in sunlight from above: every way with up to so many reflections inside."""
     b = (numpy.arange(steps) + 0.5) / steps  # impact over the radius
@@ -153,7 +196,9 @@ def disc_of(sun, disc_deg, count=400):
 def under_facade(width, height, arc_deg, columns, rows, gap, middle, sun, disc_deg, reflectance, corner, cell, counts,
                  pillow=0.0):
     """W/m^2 on square cells of the ground, of panes on an arc or a line: each a mirror patch of the sun's disc. A
-    pane's middle stands out by pillow."""
+    pane's middle stands out by pillow. reflectance: of the cosine."""
+    cosines = numpy.linspace(0.001, 1, 2000)
+    reflectances = numpy.array([reflectance(c) for c in cosines])
     image = numpy.zeros(counts[0] * counts[1])
     arc, along = math.radians(arc_deg), width / columns
     radius = width / arc if arc else 0
@@ -184,7 +229,8 @@ def under_facade(width, height, arc_deg, columns, rows, gap, middle, sun, disc_d
             i = numpy.floor((x - corner[0]) / cell).astype(int)
             j = numpy.floor((z - corner[1]) / cell).astype(int)
             good = (i >= 0) & (i < counts[0]) & (j >= 0) & (j < counts[1]) & (t > 0) & (falls < 0)
-            flux = numpy.maximum(-falls, 0) * reflectance * pane[0] * pane[1] / (len(u) * len(rays))
+            reflected = numpy.interp(-falls / numpy.sqrt(length2)[:, None], cosines, reflectances)
+            flux = numpy.maximum(-falls, 0) * reflected * pane[0] * pane[1] / (len(u) * len(rays))
             image += numpy.bincount((j * counts[0] + i)[good], flux[good], len(image))
     return image.reshape(counts[1], counts[0]) / cell ** 2
 
@@ -194,17 +240,18 @@ JUNE = {11: (53.4, 128.5), 12: (59.5, 151.1), 13: (61.9, 178.9), 14: (59.8, 207.
 
 
 def facade_cases():
-    """Fronts of 480 panes in the sun: what their mirrors alone send to the street."""
-    def case(name, sun, **pillow):
+    """Fronts of 480 panes in the sun: what these alone send to the street."""
+    def case(name, sun, panes=None, **pillow):
         arc = 0 if pillow else 40
         wall = {"type": "curtain_wall", "size": [40, 72, 1], "arc_deg": arc, "panes": [20, 24], "gap": 0.06} | pillow
         at = (0, 36, 0.1 if pillow else 3.4)
         front = {"name": "front", "shape": wall, "material": "coated", "transform": {"translate": list(at)}}
-        facade = under_facade(40, 72, arc, 20, 24, 0.06, numpy.array(at), sun, 0.533, 0.3, (-20, 5), 1, (40, 50),
-                              **pillow)
+        facade = under_facade(40, 72, arc, 20, 24, 0.06, numpy.array(at), sun, 0.533,
+                              lambda c: glazing(panes, c)[1] if panes else 0.3, (-20, 5), 1, (40, 50), **pillow)
+        coated = glazing_material(panes) if panes else MIRROR | {"reflectance": 0.3}
         return name, preset(
             [front, quad(size=400)], [SUN | {"direction": list(sun), "angular_diameter_deg": 0.533}],
-            plane((0, 0.001, 30), size=(40, 50), cell=1), {"coated": MIRROR | {"reflectance": 0.3}}), {
+            plane((0, 0.001, 30), size=(40, 50), cell=1), {"coated": coated}), {
             "layer": "caustic", "mean": facade.mean(), "peak": facade.max(), "tolerance": 2e-3,
             "cells": lambda row: facade[int(float(row["z"]) - 5)][int(float(row["x"]) + 20)]}
     for sun in ((0.05, -1, -1), (0.4, -1, -0.7)):
@@ -214,6 +261,9 @@ def facade_cases():
         yield case(f"concave facade, June {hour}:00",
                    (-math.cos(e) * math.sin(a), -math.sin(e), math.cos(e) * math.cos(a)))
     yield case("pillowed front", (0.05, -1, -1), pillow=-0.003)
+    for sun in ((0.05, -1, -1), (0.4, -1, -0.7), (0.05, -1, -0.3)):
+        yield case(f"concave facade of glazing, sun {sun[0]}, {sun[2]}", sun, SOLAR_CONTROL)
+    yield case("pillowed front of glazing", (0.05, -1, -1), SOLAR_CONTROL, pillow=-0.003)
 
 
 def cases():
@@ -280,6 +330,19 @@ def cases():
         yield f"thin pane at {angle} degrees", preset(
             [quad(), quad("pane", 8, (0, 0.5, 0), name="pane")], [SUN | {"direction": [math.sin(a), -math.cos(a), 0]}],
             plane(), {"pane": GLASS | {"thin": True}}), {"mean": math.cos(a) * through_pane(angle, is_thin=True)}
+    for angle in (0, 45, 60, 75):
+        a = math.radians(angle)
+        for panes, kind in ((CLEAR_TWO, "clear"), (SOLAR_CONTROL, "coated")):
+            yield f"{kind} glazing at {angle} degrees", preset(
+                [quad(), quad("panes", 8, (0, 0.5, 0), name="window")],
+                [SUN | {"direction": [math.sin(a), -math.cos(a), 0]}], plane(), {"panes": glazing_material(panes)}), {
+                "mean": math.cos(a) * glazing(panes, math.cos(a))[0], "tolerance": 5e-4}
+    a = math.radians(20)
+    yield "two plates at 20 degrees", preset(
+        [quad(), shape("plate", "glass", (0, 0.5, 0), size=[20, 0.01, 20]),
+         shape("plate", "glass", (0, 0.53, 0), size=[20, 0.01, 20], name="second")],
+        [SUN | {"direction": [math.sin(a), -math.cos(a), 0]}], plane()), {
+        "mean": math.cos(a) * glazing(CLEAR_TWO, math.cos(a))[0], "tolerance": 1e-3}
     for angle in (0, 45):
         a = math.radians(angle)
         yield f"plate at {angle} degrees", preset(
