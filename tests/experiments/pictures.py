@@ -208,6 +208,17 @@ def meters_facade(s, name):
     s.keep(name, [folder / "street.png"])
 
 
+def facades(s, name):
+    """The map of the highest hour of a year."""
+    folder = s.folder / "facades"
+    every, seconds = (180, 0.1) if s.small else (14, 1)
+    s.call(
+        *(s.program, "measure", "street", "--hours", "year", "--every", every, "--until", 5, "--seconds", seconds),
+        *("--set", "scene.objects.0.material=silvered", "-o", folder),
+    )
+    s.keep(name, [folder / "street-highest.png"])
+
+
 def inverse_glass(s, name):
     s.keep(
         name,
@@ -351,6 +362,7 @@ MAKERS = {
     "first-light.png": first_light,
     "grazing-rainbow.png": grazing_rainbow,
     "meters-facade.png": meters_facade,
+    "facades.png": facades,
     "inverse-glass.png": inverse_glass,
     "gallery.jpg": gallery,
     "materials.jpg": materials,
