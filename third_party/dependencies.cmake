@@ -11,6 +11,7 @@ find_package(embree REQUIRED) # 3 or 4
 find_package(assimp REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(date REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 find_package(MPI QUIET COMPONENTS CXX) # without it a run is one process

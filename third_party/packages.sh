@@ -10,8 +10,8 @@ build_packages=(g++ cmake ninja-build pkg-config python3-pip)
 program_packages=(
   opencl-clhpp-headers ocl-icd-opencl-dev pocl-opencl-icd
   libfmt-dev nlohmann-json3-dev libyaml-cpp-dev libcli11-dev
-  libglm-dev libassimp-dev libpugixml-dev zlib1g-dev libembree-dev libopenimageio-dev liblcms2-dev libeigen3-dev
-  libqrencode-dev glmark2-data fonts-dejavu-core libjs-chart.js)
+  libglm-dev libassimp-dev libpugixml-dev zlib1g-dev libhowardhinnant-date-dev libembree-dev libopenimageio-dev
+  liblcms2-dev libeigen3-dev libqrencode-dev glmark2-data fonts-dejavu-core libjs-chart.js)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # What cpack makes a package with: a library's package by dpkg-shlibdeps, and what is a program by file.

@@ -127,12 +127,14 @@ void print_text(const Series& series, const run::Hours& hours, optics::SpectralR
              preset::word(preset::unit_of(series.meter)), text_of(range));
   if (series.lines.empty()) return;
   const bool is_day = series.lines.front().hour.date == series.lines.back().hour.date;
-  std::map<std::string, const Line*> shown;
+  std::map<std::string, const Line*> highest; // of each month
   for (const Line& line : series.lines) {
-    const Line*& best = shown[is_day ? clock(line.hour.hour) : line.hour.date.substr(0, 7)];
+    if (is_day) print_line(line, unit);
+    const Line*& best = highest[line.hour.date.substr(0, 7)];
     if (!best || line.peak.value > best->peak.value) best = &line;
   }
-  for (const auto& [key, line] : shown) print_line(*line, unit);
+  if (!is_day)
+    for (const auto& [month, line] : highest) print_line(*line, unit);
   print_line(series.top(), unit, "  highest:");
   if (series.refused > 0)
     fmt::print("  {} were too bright for the film and are not in these numbers\n",
@@ -152,6 +154,7 @@ void print_text(const Series& series, const run::Hours& hours, optics::SpectralR
 Json to_json(const Line& line) {
   return {{"date", line.hour.date},
           {"hour", line.hour.hour},
+          {"utc_offset_h", line.hour.utc_offset_h},
           {"sun_elevation_deg", line.sun.elevation_deg},
           {"sun_azimuth_deg", line.sun.azimuth_deg},
           {"mean", json_of(line.mean)},
@@ -187,12 +190,12 @@ std::string cells_csv(const Series& series) {
 std::string hours_csv(const Series& series) {
   const char* const unit = preset::is_luminous(series.meter.unit) ? "lx" : "W/m^2";
   std::string text = fmt::format("date,hour,sun_elevation_deg,sun_azimuth_deg,mean {0},mean {0} half,peak {0},peak {0} "
-                                 "low,peak {0} high,x,y,z\n",
+                                 "low,peak {0} high,x,y,z,utc_offset_h\n",
                                  unit);
   for (const Line& l : series.lines)
-    text += fmt::format("{},{:g},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", l.hour.date,
-                        l.hour.hour, l.sun.elevation_deg, l.sun.azimuth_deg, l.mean.value, l.mean.half(), l.peak.value,
-                        l.peak.low, l.peak.high, l.place.x, l.place.y, l.place.z);
+    text += fmt::format("{},{:g},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:g}\n",
+                        l.hour.date, l.hour.hour, l.sun.elevation_deg, l.sun.azimuth_deg, l.mean.value, l.mean.half(),
+                        l.peak.value, l.peak.low, l.peak.high, l.place.x, l.place.y, l.place.z, l.hour.utc_offset_h);
   return text;
 }
 

@@ -102,7 +102,7 @@ glm::dvec2 sines_of_sun(const Light& light, const Settings& s, const Location& w
     throw bad_input(
         where / "hour",
         fmt::format("is {:g}, when the sun is {:.1f} degrees below the horizon", light.place.hour, -at.elevation_deg),
-        "expected an hour of daylight", "choose another hour or date, or see to utc_offset_h");
+        "expected an hour of daylight", "choose another hour or date, or see to the offset from UTC");
   const glm::dvec3 z = scene::to_sky({s.front_elevation_deg, s.front_azimuth_deg}),
                    y = scene::to_sky({s.front_elevation_deg + 90, s.front_azimuth_deg}), sun = scene::to_sky(at);
   if (const double facing = glm::dot(sun, z); facing <= 0)

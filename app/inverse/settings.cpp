@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "inverse/describe_settings.h"
+#include "preset/place.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>
@@ -52,9 +53,7 @@ void check_light(const Light& light, const Settings& s, const std::string& point
   if ((light.type == Light::Type::area || light.type == Light::Type::mesh) && s.sun_deg.value_or(0) > 0)
     throw bad_input(where("/inverse/sun_deg"), fmt::format("is {} degrees, and a lamp has a size", *s.sun_deg),
                     fmt::format("expected 0 with a light of type {}", preset::word(light.type)), "remove it");
-  if (light.type == Light::Type::sun && !preset::days_since_2000(light.place.date))
-    throw bad_input(where(preset::child(preset::child(pointer, "place"), "date")),
-                    fmt::format("is \"{}\"", light.place.date), "expected a day of 1950 to 2050 as \"2026-06-21\"");
+  if (light.type == Light::Type::sun) preset::check_place(light.place, preset::child(pointer, "place"), where);
 }
 
 void check_receivers(const Settings& s, const std::string& pointer, const Where& where) {

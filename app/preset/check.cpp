@@ -4,16 +4,15 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/nearest.h"
-#include "base/numbers.h"
 #include "preset/choices.h"
 #include "preset/meters.h"
+#include "preset/place.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -150,9 +149,7 @@ void check_environment(const Environment& e, const std::string& pointer, const W
   if (e.place && e.sun_direction)
     throw bad_input(where(pointer), "has both 'place' and 'sun_direction'", "expected one of them");
   if (e.sun_direction) check_direction(*e.sun_direction, child(pointer, "sun_direction"), where);
-  if (e.place && !days_since_2000(e.place->date))
-    throw bad_input(where(child(child(pointer, "place"), "date")), "is " + in_quotes(e.place->date),
-                    "expected a day from 1950-01-01 to 2050-12-31 as YYYY-MM-DD");
+  if (e.place) check_place(*e.place, child(pointer, "place"), where);
 }
 
 void check_light(const Light& l, const Scene& scene, const std::string& pointer, const Where& where) {
@@ -248,18 +245,6 @@ void check_reference(const Preset& preset, const Where& where) {
 }
 
 } // namespace
-
-std::optional<int> days_since_2000(const std::string& date) {
-  if (date.size() != 10 || date[4] != '-' || date[7] != '-') return std::nullopt;
-  const auto year = number_in<int>(date.substr(0, 4)), month = number_in<int>(date.substr(5, 2)),
-             day = number_in<int>(date.substr(8));
-  if (!year || !month || !day || *year < 1950 || *year > 2050 || *month < 1 || *day < 1) return std::nullopt;
-  const std::chrono::year_month_day there{std::chrono::year(*year), std::chrono::month(static_cast<unsigned>(*month)),
-                                          std::chrono::day(static_cast<unsigned>(*day))};
-  if (!there.ok()) return std::nullopt;
-  using namespace std::chrono_literals;
-  return static_cast<int>((std::chrono::sys_days(there) - std::chrono::sys_days(2000y / 1 / 1)).count());
-}
 
 bool has_white(const Preset& preset) { return std::ranges::count(preset.settings.type().without, "white") == 0; }
 

@@ -240,8 +240,11 @@ void describe(Fields& v, PlaceAndTime& p) {
   v.field("date", "YYYY-MM-DD, of the years 1950 to 2050.", p.date, {.text = Text::line, .required = true});
   v.field("hour", "Hour by the clock, with its fraction: 14.5 is half past two.", p.hour,
           {.unit = "h", .bounds = within(0, 24), .required = true});
-  v.field("utc_offset_h", "What the clock is ahead of UTC, summer time included: 2 in Berlin in June.", p.utc_offset_h,
-          {.unit = "h", .bounds = within(-14, 14)});
+  v.field("utc_offset_h",
+          "What the clock is ahead of UTC, summer time included: 2 in Berlin in June; null: as time_zone says, or 0.",
+          p.utc_offset_h, {.unit = "h", .bounds = within(-14, 14)});
+  v.field("time_zone", "The clock's time zone, with its summer time, in place of utc_offset_h: \"Europe/Berlin\".",
+          p.time_zone, {.text = Text::line});
 }
 
 void describe(Fields& v, Environment& e) {

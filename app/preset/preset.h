@@ -270,8 +270,10 @@ struct PlaceAndTime {
   double latitude_deg = 0;  ///< north is positive
   double longitude_deg = 0; ///< east is positive
   std::string date = {};    ///< YYYY-MM-DD, 1950 to 2050
-  double hour = 12;         ///< by the clock of utc_offset_h: 14.5 is half past two
-  double utc_offset_h = 0;  ///< what that clock is ahead of UTC, summer time included
+  double hour = 12;         ///< by the place's clock: 14.5 is half past two
+  /// What the clock is ahead of UTC, summer time included; nothing: what its time zone says, or 0 (preset/place.h).
+  std::optional<double> utc_offset_h = {};
+  std::optional<std::string> time_zone = {}; ///< IANA's name, such as "Europe/London"; only one of the two is given
   bool operator==(const PlaceAndTime&) const = default;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/hours.h"
 
+#include "preset/place.h"
 #include "scene/clear_sky.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,12 @@ std::string date_of(int day) {
 }
 
 void add_day(Hours& hours, const std::string& date) {
-  for (int hour = 0; hour < 24; ++hour) hours.hours.push_back({date, static_cast<double>(hour), {}, {}});
+  preset::PlaceAndTime then = hours.place;
+  then.date = date;
+  for (int hour = 0; hour < 24; ++hour) {
+    then.hour = hour;
+    for (const double offset : preset::offsets_h(then)) hours.hours.push_back({date, then.hour, {}, {}, offset});
+  }
 }
 
 std::string every_day(int every) { return every == 1 ? "each day" : fmt::format("every {}th day", every); }
@@ -48,7 +54,8 @@ Hours hours_of_year(const preset::PlaceAndTime& place, int every) {
   const int first = preset::days_since_2000(year + "-01-01").value(),
             last = preset::days_since_2000(year + "-12-31").value(), days_of_year = last - first + 1;
   for (int day = first; day <= last; day += every) add_day(hours, date_of(day));
-  hours.weight_h = weight_of(static_cast<std::size_t>(days_of_year), hours.hours.size() / 24);
+  hours.weight_h =
+      weight_of(static_cast<std::size_t>(days_of_year), static_cast<std::size_t>((days_of_year + every - 1) / every));
   return hours;
 }
 
@@ -72,7 +79,7 @@ Hours hours_of_weather(const scene::Weather& weather, const preset::PlaceAndTime
     else if (scene::sun_place(then).elevation_deg <= 0)
       hours.twilight += *hour.direct_w + *hour.diffuse_w > 0 ? 1 : 0;
     else
-      hours.hours.push_back({then.date, hour.hour, hour.direct_w, hour.diffuse_w});
+      hours.hours.push_back({then.date, hour.hour, hour.direct_w, hour.diffuse_w, weather.utc_offset_h});
   }
   return hours;
 }
@@ -82,6 +89,8 @@ preset::Environment sky_of(const preset::Environment& sky, const preset::PlaceAn
   made.place = place;
   made.place->date = hour.date;
   made.place->hour = hour.hour;
+  made.place->utc_offset_h = hour.utc_offset_h;
+  made.place->time_zone.reset();
   if (!hour.direct_w || scene::is_night(made)) return made;
   const scene::ClearSky clear = scene::clear_sky_of(made, optics::SpectralRange::solar);
   made.sun_scale = *hour.direct_w / optics::sum_of(clear.direct);

@@ -15,6 +15,7 @@ struct Hour {
   std::string date;                          ///< as preset::PlaceAndTime has it
   double hour = 0;                           ///< by the place's clock
   std::optional<double> direct_w, diffuse_w; ///< W/m^2 as scene::WeatherHour has them; nothing: a clear sky's
+  double utc_offset_h = 0;                   ///< what that clock is ahead of UTC
 };
 
 /// A series of hours at a place. Each stands for `weight_h` of the time that the series is of.
@@ -27,7 +28,7 @@ struct Hours {
   std::vector<Hour> hours = {};
 };
 
-/// Each full hour of the place's day.
+/// Each full hour of the place's day. One that its clock shows twice is there twice, one that it never shows is not.
 Hours hours_of_day(const preset::PlaceAndTime& place);
 /// Each full hour of every `every`th day of the place's year, from 1 January. every: 1..365.
 Hours hours_of_year(const preset::PlaceAndTime& place, int every);

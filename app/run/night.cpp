@@ -71,7 +71,7 @@ std::string night_note(const preset::Preset& preset) {
     return {};
   return fmt::format("{}: the sun is below the horizon{}: the sky, which knows no twilight, is dark; {}",
                      who_says(preset), frames,
-                     preset.scene.environment->place ? "for light choose another hour, or look at utc_offset_h"
+                     preset.scene.environment->place ? "for light choose another hour, or look at the offset from UTC"
                                                      : "for light choose a direction above the horizon");
 }
 

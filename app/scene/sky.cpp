@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "optics/tables.h"
+#include "preset/place.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -165,7 +166,7 @@ void as_clear_sky(Environment& map, const preset::Environment& sky, double eleva
 
 SunPlace sun_place(const preset::PlaceAndTime& place) {
   // Days from noon of 2000-01-01, UTC; universal and terrestrial time are taken as one.
-  const double days = preset::days_since_2000(place.date).value() - 0.5 + (place.hour - place.utc_offset_h) / 24;
+  const double days = preset::days_since_2000(place.date).value() - 0.5 + (place.hour - preset::offset_h(place)) / 24;
   const double mean = 280.460 + 0.9856474 * days, anomaly = (357.528 + 0.9856003 * days) * degree;
   const double longitude = (mean + 1.915 * std::sin(anomaly) + 0.020 * std::sin(2 * anomaly)) * degree;
   const double tilt = (23.439 - 4e-7 * days) * degree;

@@ -97,6 +97,35 @@ TEST(MeterHours, ADayHasNightsAndAYearItsDays) {
   EXPECT_EQ(year.hours.back().date, "2026-12-31");
 }
 
+// London's clocks go from 0:59 to 2:00 on 29 March 2026, and show 1:00 to 1:59 twice on 25 October.
+TEST(MeterHours, OfAChangeAreThoseThatTheClockShows) {
+  preset::PlaceAndTime place = *london_preset().scene.environment->place;
+  place.utc_offset_h.reset();
+  place.time_zone = "Europe/London";
+  const auto day = [&](const char* date) {
+    place.date = date;
+    std::vector<std::pair<double, double>> shown;
+    for (const run::Hour& hour : run::hours_of_day(place).hours) shown.emplace_back(hour.hour, hour.utc_offset_h);
+    return shown;
+  };
+  using Shown = std::pair<double, double>;
+  const std::vector<Shown> spring = day("2026-03-29"), autumn = day("2026-10-25");
+  ASSERT_EQ(spring.size(), 23u);
+  EXPECT_EQ(spring[0], Shown(0, 0));
+  EXPECT_EQ(spring[1], Shown(2, 1));
+  ASSERT_EQ(autumn.size(), 25u);
+  EXPECT_EQ(autumn[1], Shown(1, 1));
+  EXPECT_EQ(autumn[2], Shown(1, 0));
+  const run::Hours year = run::hours_of_year(place, 1);
+  EXPECT_EQ(year.hours.size(), 365u * 24);
+  EXPECT_EQ(year.weight_h, 1);
+  EXPECT_EQ(run::hours_of_year(place, 7).weight_h, 365.0 / 53);
+  // The sun of an hour is that of its offset.
+  const preset::Environment sky = run::sky_of(*london_preset().scene.environment, place, {"2026-06-21", 13, {}, {}, 1}),
+                            utc = *london_preset().scene.environment;
+  EXPECT_EQ(scene::sun_place(*sky.place).azimuth_deg, scene::sun_place(*utc.place).azimuth_deg);
+}
+
 /// An EPW file of one day, whose sun shines at 13:30 alone, and whose sky shines after sunset, too.
 std::string weather_of_a_day() {
   std::string text = "LOCATION,Somewhere,-,-,Made,0,51.5,0.0,1.0,10.0\n";

@@ -145,7 +145,10 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     meter.object = p.scene.objects.front().name;
   }
   if (p.scene.lights.empty()) p.display.white_balance = Display::WhiteBalance::d65;
-  if (auto& e = p.scene.environment; e && e->place) e->place->date = "2026-06-21", e->sun_direction.reset();
+  if (auto& e = p.scene.environment; e && e->place) {
+    e->place->date = "2026-06-21", e->sun_direction.reset();
+    if (e->place->time_zone) e->place->time_zone = "Asia/Kolkata", e->place->utc_offset_h.reset();
+  }
   if (auto& e = p.scene.environment; e && !e->place && e->type == preset::Environment::Type::sky)
     e->sun_direction = {0.1, 1, 1.0 / 3};
   const auto agree = [](Settings& settings) {

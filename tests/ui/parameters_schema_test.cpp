@@ -101,6 +101,8 @@ protected:
       all = {"98", "386"};
     else if (pointer.ends_with("/place/date"))
       all = {"2026-06-21", "2000-02-29"};
+    else if (pointer.ends_with("/place/time_zone"))
+      all = {"Europe/London", "Asia/Kolkata"};
     else if (pointer.ends_with("/meters/0/threshold"))
       all = owner.ends_with("goniometer") ? std::vector<std::string>{"20 cd", "5 W/sr"}
                                           : std::vector<std::string>{"2500 W/m^2", "5 lx"};

@@ -162,7 +162,7 @@ TEST(Sky, NightIsSaidWithWhoMadeIt) {
   EXPECT_EQ(run::night_note(preset_of({})), "");
   EXPECT_EQ(run::night_note(preset_of({"scene.environment.place.hour=3"})),
             "--set scene.environment.place.hour=3: the sun is below the horizon: the sky, which knows no twilight, is "
-            "dark; for light choose another hour, or look at utc_offset_h");
+            "dark; for light choose another hour, or look at the offset from UTC");
   const preset::Preset day = preset_of({whole_day});
   EXPECT_THAT(run::night_note(day), HasSubstr("in the frames 0-1, 18: the sky"));
   EXPECT_THAT(run::prepare(day).plan->notes, Contains(run::night_note(day)));
