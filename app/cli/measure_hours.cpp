@@ -11,6 +11,7 @@
 #include "meters/map.h"
 #include "preset/choices.h"
 #include "run/hours.h"
+#include "run/map_film.h"
 #include "run/meters.h"
 
 #include <fmt/format.h>
@@ -75,6 +76,7 @@ struct Series {
   double lost_share = 0;           ///< the largest of an hour (photons::MeterRun)
   std::uint64_t refused = 0;       ///< in all hours
   glm::dvec3 origin{0};            ///< preset coordinates of the scene's (0, 0, 0)
+  run::MapFilm film;               ///< of all hours, where files are written
 
   explicit Series(const preset::Meter& of) : meter(of) {
     if (!of.threshold) return;
@@ -213,6 +215,9 @@ void report(const HoursOptions& options, const run::Hours& hours, const std::vec
     write_file_whole(options.folder / (stem + "-cells.csv"), cells_csv(series));
     const measure::Bitmap map = meters::false_colours(series.meter, series.surface, *series.highest);
     image::write_png_bytes(options.folder / (stem + "-highest.png"), map.width, map.height, map.rgba);
+    if (const auto why_not = series.film.write(options.folder / (stem + "-hours"),
+                                               options.folder / (stem + "-hours.mp4"), series.meter, series.surface))
+      fmt::print(stderr, "note: {}: there is no video: {}\n", series.meter.name, *why_not);
   }
   if (options.json) fmt::print("{}\n", json_text(object));
   if (!options.folder.empty()) write_file_whole(options.folder / "hours.json", object.dump(2) + "\n");
@@ -271,6 +276,8 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
       series.sums.add(meter.reading->all().cells[static_cast<std::size_t>(meters::quantity_of(meter.meter.unit))],
                       hours.weight_h, series.threshold);
       if (is_highest) series.highest = meter.reading;
+      if (!options.folder.empty())
+        series.film.add(series.meter, *meter.reading, fmt::format("{}  {}", hour.date, clock(hour.hour)));
       series.lost_share = std::max(series.lost_share, meter.run->lost_share());
       series.refused += meter.run->refused();
       series.surface = *meter.surface, series.origin = meter.origin;

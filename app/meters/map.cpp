@@ -20,7 +20,7 @@ const char* name_of(const scene::MeterSurface& surface, Quantity quantity) {
 }
 
 /// A value between cells, of those around that are there; nothing where none is.
-std::optional<double> between(const Map& map, const std::vector<double>& values, double x, double y) {
+std::optional<double> between(const Map& map, const std::vector<float>& values, double x, double y) {
   const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
   double sum = 0, weights = 0;
   for (int dy = 0; dy < 2; ++dy)
@@ -123,19 +123,33 @@ image::Image picture(const scene::MeterSurface& surface, double metres_per_unit,
   return image;
 }
 
-ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<double>& values, int edge) {
+std::vector<float> shown_values(const preset::Meter& meter, const Reading& reading) {
+  const double unit = preset::size_of(preset::unit_of(meter));
+  std::vector<float> values;
+  for (const Interval& cell : reading.all().cells[static_cast<std::size_t>(quantity_of(meter.unit))])
+    values.push_back(static_cast<float>(cell.value / unit));
+  return values;
+}
+
+ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<float>& values, double scale, int edge) {
   constexpr Colour nothing{32, 32, 32}, line{255, 255, 255};
   const Map map = map_of(surface);
   const int zoom = std::max(1, edge / std::max(map.width, map.height)), width = map.width * zoom,
             height = map.height * zoom;
-  const double scale = measure::colour_scale(std::vector<float>(values.begin(), values.end()));
-  ColouredMap result{measure::Bitmap(width, height), zoom, scale,
-                     measure::colour_bar(height, scale, false).numbers - 1};
-  const auto level = [&](int x, int y) {
-    const auto value = between(map, values, (x + 0.5) / zoom - 0.5, (y + 0.5) / zoom - 0.5);
-    return value ? static_cast<int>(std::floor(result.steps * *value / scale)) : -1;
-  };
+  const int lines = measure::colour_bar(height, scale, false).numbers - 1; // at the numbers beside the bar
+  ColouredMap result{measure::Bitmap(width, height), zoom};
+  std::vector<int> levels; // [y][x], where there are lines
   const bool has_lines = map.width * map.height > 16 && zoom > 2;
+  if (has_lines)
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const auto value = between(map, values, (x + 0.5) / zoom - 0.5, (y + 0.5) / zoom - 0.5);
+        levels.push_back(value ? static_cast<int>(std::floor(lines * *value / scale)) : -1);
+      }
+  const auto level = [&](int x, int y) {
+    return levels[static_cast<std::size_t>(std::min(y, height - 1)) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(std::min(x, width - 1))];
+  };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int cell = map.cells[map.place(y / zoom, x / zoom)];
@@ -143,27 +157,24 @@ ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<doubl
         result.bitmap.set(x, y, nothing);
         continue;
       }
-      const int here = level(x, y);
-      const bool crosses =
-          has_lines && here <= result.steps &&
-          (level(std::min(x + 1, width - 1), y) != here || level(x, std::min(y + 1, height - 1)) != here);
+      const int here = has_lines ? level(x, y) : 0;
+      const bool crosses = has_lines && here <= lines && (level(x + 1, y) != here || level(x, y + 1) != here);
       result.bitmap.set(x, y, crosses ? line : measure::map_colour(values[static_cast<std::size_t>(cell)] / scale));
     }
   return result;
 }
 
-measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading) {
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface,
+                              const std::vector<float>& values, double scale, const std::string& title) {
   constexpr int edge = 640;
-  std::vector<double> values;
-  for (const Interval& cell : reading.all().cells[static_cast<std::size_t>(quantity_of(meter.unit))])
-    values.push_back(cell.value / preset::size_of(preset::unit_of(meter)));
-  const ColouredMap map = coloured(surface, values, edge);
-  const measure::ColourBar bar = measure::colour_bar(map.bitmap.height, map.scale, false); // numbers at the lines
-  const image::Image words =
-      image::text_picture(std::string(preset::word(preset::unit_of(meter))), 16, Location("a meter's map"));
-  const int top = words.height + 12;
-  measure::Bitmap bitmap(map.bitmap.width + std::max(bar.width, words.width + 12),
-                         top + std::max(map.bitmap.height, bar.height));
+  const measure::Bitmap map = coloured(surface, values, scale, edge).bitmap;
+  const measure::ColourBar bar = measure::colour_bar(map.height, scale, false);
+  const Location where("a meter's map");
+  const image::Image words = image::text_picture(std::string(preset::word(preset::unit_of(meter))), 16, where),
+                     above = title.empty() ? image::Image() : image::text_picture(title, 16, where);
+  const int top_of_map = title.empty() ? 0 : above.height + 12, top = top_of_map + words.height + 12;
+  measure::Bitmap bitmap(std::max(map.width + std::max(bar.width, words.width + 12), above.width + 12),
+                         top + std::max(map.height, bar.height));
   measure::Bitmap beside(bar.width, bar.height);
   measure::draw(beside, 0, bar);
   const auto copy = [&](const measure::Bitmap& from, int left) {
@@ -175,10 +186,17 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
         bitmap.set(left + x, top + y, {pixel[0], pixel[1], pixel[2]});
       }
   };
-  copy(map.bitmap, 0);
-  copy(beside, map.bitmap.width);
-  draw_words(bitmap, map.bitmap.width + 6, 6, words);
+  copy(map, 0);
+  copy(beside, map.width);
+  draw_words(bitmap, 6, 6, above);
+  draw_words(bitmap, map.width + 6, top_of_map + 6, words);
   return bitmap;
+}
+
+
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading) {
+  const std::vector<float> values = shown_values(meter, reading);
+  return false_colours(meter, surface, values, measure::colour_scale(values), "");
 }
 
 } // namespace nephroid::meters

@@ -30,17 +30,22 @@ std::string csv(const scene::MeterSurface& surface, const glm::dvec3& origin, do
 /// "direct.irradiance" and so on for layers, "area" in square metres: 0 where there is no cell.
 image::Image picture(const scene::MeterSurface& surface, double metres_per_unit, const Reading& reading);
 
+/// The cells' values in the meter's unit.
+std::vector<float> shown_values(const preset::Meter& meter, const Reading& reading);
+
 /// Values of cells in false colours, with lines of equal value where cells are large enough.
 struct ColouredMap {
   measure::Bitmap bitmap; ///< a cell is zoom x zoom pixels
   int zoom = 1;
-  double scale = 1; ///< the value at the end of the colours
-  int steps = 1;    ///< from a line of equal value to the next: scale over this
 };
-/// edge: of the bitmap's longer side, in pixels, where cells are fewer.
-ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<double>& values, int edge);
+/// scale: where the colours end. edge: of the bitmap's longer side, in pixels, where cells are fewer.
+ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<float>& values, double scale, int edge);
 
-/// Values of the meter's unit in false colours with lines of equal value, and the scale beside them.
+/// Values of the meter's unit in false colours with lines of equal value, and the scale beside them. title: a line
+/// above the map; may be empty. Throws as image::text_picture.
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface,
+                              const std::vector<float>& values, double scale, const std::string& title);
+/// The same with the scale of the values alone (measure::colour_scale).
 measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading);
 
 } // namespace nephroid::meters

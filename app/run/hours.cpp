@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/hours.h"
 
+#include "base/counted.h"
 #include "preset/place.h"
 #include "scene/clear_sky.h"
 
@@ -60,12 +61,15 @@ Hours hours_of_year(const preset::PlaceAndTime& place, int every) {
 }
 
 Hours hours_of_weather(const scene::Weather& weather, const preset::PlaceAndTime& place, int every) {
-  Hours hours{.about = every_day(every) + " of the weather of " + weather.place,
+  const std::size_t days = weather.hours.size() / 24, step = static_cast<std::size_t>(every);
+  const bool is_year = days == 365 || days == 366;
+  Hours hours{.about = every_day(every) +
+                       (is_year ? " of the weather of " : " of the " + counted(days, "day") + " of weather of ") +
+                       weather.place,
               .place = {.latitude_deg = weather.latitude_deg,
                         .longitude_deg = weather.longitude_deg,
                         .date = place.date,
                         .utc_offset_h = weather.utc_offset_h}};
-  const std::size_t days = weather.hours.size() / 24, step = static_cast<std::size_t>(every);
   hours.weight_h = weight_of(days, (days + step - 1) / step);
   for (std::size_t i = 0; i < weather.hours.size(); ++i) {
     const scene::WeatherHour& hour = weather.hours[i];

@@ -4,6 +4,7 @@
 
 #include "base/files.h"
 #include "preset/read.h"
+#include "run/map_film.h"
 #include "run/meters.h"
 #include "tests/support/presets.h"
 #include "tests/support/render.h"
@@ -126,6 +127,34 @@ TEST(MeterHours, OfAChangeAreThoseThatTheClockShows) {
   EXPECT_EQ(scene::sun_place(*sky.place).azimuth_deg, scene::sun_place(*utc.place).azimuth_deg);
 }
 
+// Frames have one scale: the brightest hour's. The same cell has another colour in a darker hour.
+TEST(MeterHours, FilmsHaveOneScale) {
+  const preset::Preset p = london_preset();
+  run::Metering metering(run::prepare(p), {shared_context(), Communicator(nullptr)});
+  while (!metering.meters()[0].reading) metering.advance();
+  const run::MeterInHand& meter = metering.meters()[0];
+  meters::Reading dark = *meter.reading;
+  for (Interval& cell : dark.layers[0].cells[0]) cell.value /= 4;
+  const TemporaryFolder folder;
+  const fs::path frames = folder.path() / "level-hours";
+  run::MapFilm film;
+  film.add(meter.meter, *meter.reading, "2026-06-21  12:00");
+  film.add(meter.meter, dark, "2026-06-21  18:00");
+  const auto why_not = film.write(frames, folder.path() / "level-hours.mp4", meter.meter, meter.surface);
+  EXPECT_EQ(why_not.has_value(), !fs::exists(folder.path() / "level-hours.mp4"));
+  const auto colour = [&](const char* file) {
+    const image::Image picture = image::read_image(frames / file);
+    const std::size_t middle = static_cast<std::size_t>(picture.height / 2 * picture.width + 100);
+    return picture.data[middle * picture.channels.size()];
+  };
+  EXPECT_GT(colour("frame_0000.png"), 1.5f * colour("frame_0001.png"));
+  film.write(frames, folder.path() / "level-hours.mp4", meter.meter, meter.surface);
+  run::MapFilm shorter;
+  shorter.add(meter.meter, dark, "2026-06-21  18:00");
+  shorter.write(frames, folder.path() / "level-hours.mp4", meter.meter, meter.surface);
+  EXPECT_FALSE(fs::exists(frames / "frame_0001.png")) << "earlier frames go";
+}
+
 /// An EPW file of one day, whose sun shines at 13:30 alone, and whose sky shines after sunset, too.
 std::string weather_of_a_day() {
   std::string text = "LOCATION,Somewhere,-,-,Made,0,51.5,0.0,1.0,10.0\n";
@@ -160,6 +189,7 @@ TEST_F(WeatherFile, GivesItsHoursTheirSunAndSky) {
   EXPECT_EQ(hours.hours[0].date, "2026-06-21");
   EXPECT_EQ(hours.hours[0].hour, 13.5);
   EXPECT_EQ(hours.place.utc_offset_h, 1);
+  EXPECT_EQ(hours.about, "each day of the 1 day of weather of Somewhere") << "it is no year";
   preset::Preset then = p;
   then.scene.environment = run::sky_of(*p.scene.environment, hours.place, hours.hours[0]);
   const double sine = std::sin(scene::sun_place(*then.scene.environment->place).elevation_deg * M_PI / 180);

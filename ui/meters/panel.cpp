@@ -181,13 +181,13 @@ void MetersPanel::draw_map(const Context&) {
   if (shown_->surface->count() < 2) return;
   const Colours now{shown_->reading, layer().name, unit_now_};
   if (now != coloured_) {
-    std::vector<double> values;
+    std::vector<float> values;
     for (const Interval& cell : layer().cells[static_cast<std::size_t>(meters::quantity_of(unit_now_))])
-      values.push_back(cell.value / preset::size_of(unit_now_));
+      values.push_back(static_cast<float>(cell.value / preset::size_of(unit_now_)));
     map_ = meters::map_of(*shown_->surface);
-    const meters::ColouredMap picture = meters::coloured(*shown_->surface, values, 640);
+    high_ = measure::colour_scale(values);
+    const meters::ColouredMap picture = meters::coloured(*shown_->surface, values, high_, 640);
     zoom_ = picture.zoom;
-    high_ = picture.scale;
     std::ranges::copy(picture.bitmap.rgba, texture_.edit(picture.bitmap.width, picture.bitmap.height).begin());
     coloured_ = now;
   }

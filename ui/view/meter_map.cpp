@@ -2,6 +2,7 @@
 #include "ui/view/meter_map.h"
 
 #include "meters/in_picture.h"
+#include "meters/map.h"
 #include "meters/shown.h"
 #include "preset/choices.h"
 #include "preset/meters.h"
@@ -43,11 +44,9 @@ void MapOnPicture::refresh(const Context& context) {
 void MapOnPicture::colour(const meters::Shown& shown, const Seen& seen) {
   constexpr unsigned char cover = 225; // of 255: edges of the picture show through
   const preset::Meter::Unit unit = preset::unit_of(shown.meter);
-  std::vector<double> values;
-  for (const meters::Interval& cell : shown.reading->all().cells[static_cast<std::size_t>(meters::quantity_of(unit))])
-    values.push_back(cell.value / preset::size_of(unit));
+  const std::vector<float> values = meters::shown_values(shown.meter, *shown.reading);
   unit_ = preset::word(unit);
-  high_ = measure::colour_scale(std::vector<float>(values.begin(), values.end()));
+  high_ = measure::colour_scale(values);
   const scene::Camera& camera = seen.loaded->scene.camera;
   size_ = {camera.width, camera.height};
   const std::span<unsigned char> bytes = texture_.edit(camera.width, camera.height);
