@@ -63,7 +63,7 @@ public:
       if (part->make) passes_.add(part->make(world_, scene, plan.settings), part->layer);
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error))
       most_passes_ = preset.stop.passes.value_or(preset::default_passes);
-    passes_.warm_up(world_);
+    warm_up(world_, passes_.stages());
     if (const std::int64_t most = passes_.most(); most < preset::max_passes)
       most_passes_ = most_passes_ < 0 ? most : std::min(most_passes_, most);
   }

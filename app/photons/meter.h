@@ -25,13 +25,14 @@ public:
   virtual ~MeterRun() = default;
   /// Does one slice of about 30 ms.
   virtual void advance() = 0;
-  /// In a cycle each replicate has one pass.
+  /// Cycles so far, all of about the same work. In the first each stage has one pass in each replicate. In those after
+  /// it, a stage has as many for each as lower the noise of the mean and the peak most (layers).
   virtual std::int64_t cycles() const = 0;
   /// Photons sent so far.
   virtual std::uint64_t photons() const = 0;
   /// Seconds of work.
   virtual double work_seconds() const = 0;
-  /// Right after a cycle.
+  /// Right after a cycle. Shares out the work of the next ones by the noise until then.
   virtual std::vector<MeterLayer> layers() = 0;
   /// The part of the photons' power that met too many surfaces.
   virtual double lost_share() = 0;

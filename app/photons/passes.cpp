@@ -5,10 +5,10 @@
 
 namespace nephroid::photons {
 
-void Passes::warm_up(StageContext& world) {
+void warm_up(StageContext& world, std::span<const TimedStage> stages) {
   const mpi::RankContext& context = world.context;
   if (!context.communicator().broadcast(context.is_cold())) return; // rank 0 may have rendered a reference before
-  for (const TimedStage& s : stages_) s.stage->warm_up(context.communicator());
+  for (const TimedStage& s : stages) s.stage->warm_up(context.communicator());
   world.energy.fill_zero();
   world.context.finish(); // a run that never starts its work must not end while kernels run
   context.set_warm();

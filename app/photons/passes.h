@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ struct TimedStage {
   bool caustics() const { return std::string_view(layer) == "caustic"; }
 };
 
+/// Runs all kernels once where OpenCL has not yet compiled them (Stage::warm_up).
+void warm_up(StageContext& world, std::span<const TimedStage> stages);
+
 class Passes {
 public:
   /// batches is the number of batches of photons in a pass.
@@ -27,8 +31,6 @@ public:
   void add(std::unique_ptr<Stage> stage, const char* layer) { stages_.push_back({std::move(stage), layer}); }
   const std::vector<TimedStage>& stages() const { return stages_; }
 
-  /// Runs all kernels once where OpenCL has not yet compiled them (Stage::warm_up).
-  void warm_up(StageContext& world);
   /// Runs one slice of about 30 ms of the stage whose turn it is.
   void advance();
   /// Does other work of the run and counts it for a stage.

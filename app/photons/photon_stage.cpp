@@ -38,6 +38,7 @@ public:
         guide_moments_(world.zeroed("variance of each direction",
                                     by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", guide_.table()),
+        worth_(world.context, "worth of cells", std::vector<float>(world.tables.meter ? world.pixels.count : 0, 1.0f)),
         film_(world.zeroed("film caustic", world.film_size())) {
     make_kernel();
   }
@@ -58,6 +59,14 @@ public:
   }
 
   bool has_halves(std::int64_t passes, bool done) const override { return batches(passes, done) >= 2; }
+
+  /// What was measured with another worth is forgotten; the present guide stays until there is more.
+  void weigh_cells(const std::vector<float>& worth) override {
+    worth_.write(worth);
+    guide_.forget();
+    moments_.fill_zero();
+    guide_moments_.fill_zero();
+  }
 
   bool advance_preview() override {
     if (batch_ < world_.preview.batches) advance_to(0, world_.preview.batches);
@@ -117,6 +126,7 @@ private:
                        {"moments", moments_},
                        {"guide_moments", guide_moments_},
                        {"guide", guide_table_},
+                       {"worth", worth_},
                        {"stored", no_photons_},
                        {"receiver_table", leaves_light_ ? world_.receivers->table() : no_table_},
                        {"light", leaves_light_ ? world_.receivers->sums() : no_light_}});
@@ -182,6 +192,7 @@ private:
   compute::Buffer<std::int64_t> moments_;       ///< [emitter], see NeymanAllocation::reallocate
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
+  compute::Buffer<float> worth_; ///< of a meter's cells, see weigh_cells
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<shared::StoredPhoton> no_photons_{world_.context, "no photons", 0};
   compute::Buffer<int> no_table_{world_.context, "no receivers", 0};

@@ -80,6 +80,8 @@ public:
   virtual double work() const { return 0; }
   /// Decides the work of as many passes as there were: its paths are to gain as much as photons for their work.
   virtual void share_work(const Noise& /*noise*/) {}
+  /// Of a meter, between cycles: how much the noise of each cell matters from now on, 0..1.
+  virtual void weigh_cells(const std::vector<float>& /*worth*/) {}
   /// Photons sent in one pass; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether StageContext::energy holds the power of its photons.

@@ -206,7 +206,7 @@ PHOTON_KERNEL(indirect_photons, (WORLD_ARGUMENTS,
     photon.met_diffuse = photon.met_glass = photon.is_absorbed = false;
     photon.refused = 0;
 #if NEPHROID_METER
-    photon.on_meter = meter_film(&camera, receiver.film, launch.film_scale, random.w);
+    photon.on_meter = meter_film(&camera, receiver.film, launch.film_scale, random.w, 0);
 #endif
     const DrawnWavelength drawn = wavelength_of_cluster(
         world.tables.cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);

@@ -39,11 +39,12 @@ PHOTON_KERNEL(photons, (WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
                         volatile __global long* moments,                            // with NEPHROID_MOMENTS: [emitter]
                         volatile __global long* guide_moments,                      // ... [light][GUIDE_CELLS]
                         __global const float* guide,                                // ... [light][GUIDE_FLOATS]
+                        __global const float* worth,                                // ... and NEPHROID_METER: [cell]
                         __global StoredPhoton* stored,                              // with NEPHROID_STORE: [photon]
                         __global const int* receiver_table, volatile __global long* light, // with NEPHROID_RECEIVERS
                         DeviceCamera camera, DevicePhotonLaunch launch),
-                       (WORLD_NAMES, emitters, film, energy, moments, guide_moments, guide, stored, receiver_table,
-                        light, camera, launch)) {
+                       (WORLD_NAMES, emitters, film, energy, moments, guide_moments, guide, worth, stored,
+                        receiver_table, light, camera, launch)) {
   const World world = WORLD;
 #if NEPHROID_RECEIVERS
   const Receivers receivers = receivers_of(receiver_table);
@@ -87,7 +88,7 @@ PHOTON_KERNEL(photons, (WORLD_ARGUMENTS, __global const DeviceEmitter* emitters,
     visitor.source = source;
     visitor.watts = watts;
     visitor.film = meter_film(&camera, film_of_iteration(film, batch, camera.width * camera.height), launch.film_scale,
-                              dither);
+                              dither, NEPHROID_MOMENTS ? worth : 0);
     PhotonEnd end = follow_photon(&world, &visitor, &path);
     end.share = share_at_end(&world, &path.throughput, source, &band, share);
     end.left = power_left(&world, &path.throughput, source, &band, end.share);

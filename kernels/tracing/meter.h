@@ -55,11 +55,14 @@ typedef struct {
   float scale;                  // quanta per unit of radiance
   SET_ASIDE float dither;
   SET_ASIDE int refused; // contributions, by the film
-  SET_ASIDE long moment; // of the others: squared()
+  SET_ASIDE long moment; // of the others: squared(), times the cell's worth
+  __global const float* worth; // [cell]: how much its noise matters, 0..1
 } MeterFilm;
 
-static inline MeterFilm meter_film(const DeviceCamera* meter, volatile __global long* film, float scale, float dither) {
-  const MeterFilm result = {meter, film, scale, dither, 0, 0};
+// worth: null where nobody asks for the moment.
+static inline MeterFilm meter_film(const DeviceCamera* meter, volatile __global long* film, float scale, float dither,
+                                   __global const float* worth) {
+  const MeterFilm result = {meter, film, scale, dither, 0, 0, worth};
   return result;
 }
 
@@ -68,8 +71,8 @@ static inline void add_to_cell(const World* world, MeterFilm* to, int cell, floa
   const float3 radiance = xyz * (world->meter_density[cell] / PI_F);
   if (!film_add_dithered(to->film, cell, radiance, to->scale, FILM_LIMIT, to->dither))
     ++to->refused;
-  else
-    to->moment += squared(radiance, to->scale);
+  else if (to->worth)
+    to->moment += convert_long_rte(to->worth[cell] * (float)squared(radiance, to->scale));
   to->dither += 0.61803399f; // each has its own
   to->dither -= floor(to->dither);
 }

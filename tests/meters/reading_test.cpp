@@ -235,7 +235,7 @@ TEST(MeterRun, TheSameSeedGivesTheSameBits) {
   const auto watts = [](std::uint64_t seed) {
     preset::Preset p = room(0.5);
     p.seed = seed;
-    return measured(p, 1).all().numbers(Quantity::irradiance).mean.value;
+    return measured(p, 6).all().numbers(Quantity::irradiance).mean.value; // the last by the noise of the first
   };
   EXPECT_EQ(watts(1), watts(1));
   EXPECT_NE(watts(1), watts(2));

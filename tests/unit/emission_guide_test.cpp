@@ -67,6 +67,19 @@ TEST(EmissionGuide, StaysEvenInTheDark) {
   for (const double value : chances(guide)) EXPECT_NEAR(value, even, 4e-6 * even);
 }
 
+// What was learned first is not pooled with what comes after: the chances are those of the second alone.
+TEST(EmissionGuide, ForgetsWhatItIsTold) {
+  EmissionGuide guide(1), other(1);
+  std::vector<double> first(guide_cells, 0.0), second(guide_cells, 1.0);
+  for (std::size_t c = 0; c < guide_cells / 4; ++c) first[c] = 100;
+  guide.learn(moments_of(first, chances(guide), 1e6, 1e-12), std::vector<double>{1e6}, 1);
+  const std::vector<double> chance = chances(guide);
+  guide.forget();
+  EXPECT_EQ(chances(guide), chance) << "until there is more";
+  guide.learn(moments_of(second, chance, 1e6, 1e-14), std::vector<double>{1e6}, 1);
+  for (const double value : chances(guide)) EXPECT_NEAR(value, even, 0.05 * even);
+}
+
 // Cells of one x are alike, so the blur over y and z changes nothing: those of x < 4 with f = 3, those of x >= 12 with
 // f = 1, the others dark. The chance goes as f: 3/4 and 1/4 of 85 %, over 1024 cells each, and 15 % over all.
 TEST(EmissionGuide, GoesByTheRootOfTheMeanSquare) {

@@ -210,6 +210,11 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
   }
 }
 
+void EmissionGuide::forget() {
+  std::ranges::fill(squares_, 0);
+  std::ranges::fill(samples_, 0);
+}
+
 void EmissionGuide::serialize(tracing::Archive& archive) {
   for (std::vector<double>* values : {&chance_, &squares_, &samples_}) archive.items(std::span(*values));
   archive.items(std::span(table_));

@@ -88,6 +88,8 @@ public:
   /// moments[light][GUIDE_CELLS] is the sum over `batches` batches of the squares of what each photon added to the
   /// picture, in any unit. photons[light] is their number in each of those batches. Every cell keeps a chance.
   void learn(std::span<const std::int64_t> moments, std::span<const double> photons, double batches);
+  /// Learns from now on alone; until then the chances stay.
+  void forget();
 
   void serialize(tracing::Archive& archive);
 

@@ -245,6 +245,7 @@ private:
                  {"moments", unused_},
                  {"guide_moments", unused_},
                  {"guide", no_guide_},
+                 {"worth", no_guide_},
                  {"stored", map_.stored()},
                  {"receiver_table", no_table_},
                  {"light", unused_}});
