@@ -235,6 +235,79 @@ def under_facade(width, height, arc_deg, columns, rows, gap, middle, sun, disc_d
     return image.reshape(counts[1], counts[0]) / cell ** 2
 
 
+def turned_profile(points, rings_down=False, turns=256):
+    """An OBJ of a profile turned about y. points: (radius, height, slope of the height), from the axis outwards."""
+    vertices, normals, faces = [], [], []
+    for r, y, slope in points:
+        for turn in range(turns):
+            c, s = math.cos(2 * math.pi * turn / turns), math.sin(2 * math.pi * turn / turns)
+            n = numpy.array((-slope * c, 1, -slope * s)) * (-1 if rings_down else 1) / math.hypot(slope, 1)
+            vertices.append((r * c, y, r * s))
+            normals.append(n)
+    for ring in range(len(points) - 1):
+        for turn in range(turns):
+            a, b = ring * turns + turn, ring * turns + (turn + 1) % turns
+            quad_of = (a, b, b + turns, a + turns)
+            for triangle in ((0, 1, 2), (0, 2, 3)):
+                corners = [quad_of[i] for i in triangle]
+                if len({tuple(vertices[i]) for i in corners}) == 3:
+                    faces.append(corners if not rings_down else corners[::-1])
+    return vertices, normals, faces
+
+
+def obj_of(*parts):
+    """Of several turned profiles, whose vertices in the same place are one."""
+    text, first, places = "", 0, {}
+    for vertices, normals, faces in parts:
+        for v in vertices:
+            text += "v {:.9g} {:.9g} {:.9g}\n".format(*v)
+        for n in normals:
+            text += "vn {:.9g} {:.9g} {:.9g}\n".format(*n)
+        number = [places.setdefault(tuple(round(c, 7) + 0.0 for c in v), first + i) for i, v in enumerate(vertices)]
+        for a, b, c in faces:
+            text += "f {}//{} {}//{} {}//{}\n".format(*sum(([number[i] + 1, first + i + 1] for i in (a, b, c)), []))
+        first += len(vertices)
+    return text
+
+
+def sun_in_focus(name, mesh, material, focus, facing, truth):
+    """What gathers the sun's disc from above, and a small window in the middle of its image."""
+    thing = {"name": "object", "mesh": "object.obj", "material": material, "normals": "given"}
+    lamp = SUN | {"direction": [0, -1, 0], "angular_diameter_deg": 0.533}
+    return name, preset([thing], [lamp], {"type": "point", "position": [0, focus, 0], "normal": [0, facing, 0],
+                                          "diameter": 0.002}), {
+        "layer": "caustic", "mean": truth, "tolerance": 5e-3, "files": {"object.obj": obj_of(*mesh)}}
+
+
+def focus_cases():
+    """A dish and a lens have .9 and .92 of the sun's radiance over the solid angle that they fill."""
+    sine = math.sin(math.radians(0.533 / 2))
+    radii = [0.5 * i / 96 for i in range(97)]
+    dish = turned_profile([(r, r * r / 4, r / 2) for r in radii])  # its focus is 1 m above it
+    rim = 2 * math.atan(0.5 / 2)
+    yield sun_in_focus("paraboloid dish in the sun", [dish], "mirror", 1, -1, 0.9 * (math.sin(rim) / sine) ** 2)
+    n, radius, half, edge = 1.5, 1.0, 0.05, 0.0005
+    sag = radius - math.sqrt(radius ** 2 - half ** 2)
+    arc = [(r, math.sqrt(radius ** 2 - r * r) - radius + sag, -r / math.sqrt(radius ** 2 - r * r))
+           for r in (half * i / 96 for i in range(97))]
+    top = turned_profile([(r, y + edge, slope) for r, y, slope in arc])
+    bottom = turned_profile([(r, -y - edge, -slope) for r, y, slope in arc], True)
+    ring, outwards = 256, []
+    for i in (-1, 1):
+        outwards += [(half * math.cos(2 * math.pi * t / ring), i * edge, half * math.sin(2 * math.pi * t / ring))
+                     for t in range(ring)]
+    side = ([*outwards], [(x / half, 0, z / half) for x, _, z in outwards],
+            [f for t in range(ring) for f in ((t, ring + (t + 1) % ring, (t + 1) % ring),
+                                              (t, ring + t, ring + (t + 1) % ring))])
+    thick = 2 * (sag + edge)
+    power = 2 * (n - 1) / radius - (n - 1) ** 2 * thick / (n * radius ** 2)
+    behind = (1 - (n - 1) * thick / (n * radius)) / power  # from the lens's last face to the focus
+    spot = 2 * math.tan(math.radians(0.533 / 2)) / power
+    passed = (1 - ((n - 1) / (n + 1)) ** 2) ** 2
+    yield sun_in_focus("lens in the sun", [top, bottom, side], "glass", -thick / 2 - behind, 1,
+                       passed * (2 * half / spot) ** 2)
+
+
 # Elevation and azimuth of the sun in London on 21 June by the hour of the clock, from nephroid measure --hours day.
 JUNE = {11: (53.4, 128.5), 12: (59.5, 151.1), 13: (61.9, 178.9), 14: (59.8, 207.1), 15: (54.0, 230.1)}
 
@@ -367,6 +440,7 @@ def cases():
                                               [SUN | {"direction": [0, -1, 0]}],
                                               plane((0, 4, 0), (0, -1, 0), (1, 1), 0.05)), {"mean": total}
     yield from facade_cases()
+    yield from focus_cases()
     image = under_ball(1, 1.5, -1.6, 1, 10)
     yield "ball in the sun", preset([quad(at=(0, -1.6, 0), size=20), shape("sphere", "glass", radius=1)],
                                     [SUN | {"direction": [0, -1, 0]}], plane((0, -1.6, 0), size=(2, 2), cell=0.2)), {
@@ -412,6 +486,8 @@ def main():
             with tempfile.TemporaryDirectory() as folder:
                 file = pathlib.Path(folder) / "case.json"
                 file.write_text(json.dumps(case))
+                for mesh, text in truth.get("files", {}).items():
+                    (pathlib.Path(folder) / mesh).write_text(text)
                 run = subprocess.run([options.program, "measure", file, "--seconds", str(options.seconds), "--seed",
                                       str(seed), "-o", folder, "--json"], capture_output=True, text=True)
                 if run.returncode:
