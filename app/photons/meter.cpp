@@ -144,9 +144,12 @@ public:
   }
   std::uint64_t refused() override { return balance().refused_contributions; }
   void serialize(tracing::Archive& archive) override {
-    passes_.state_of_position(archive);
+    archive.items(turns_);
+    archive.value(now_);
+    archive.value(cycles_);
+    archive.value(work_seconds_);
     archive.buffer(world_.energy);
-    passes_.state_of_stages(archive);
+    for (const TimedStage& s : stages_) s.stage->serialize(archive);
     if (archive.is_read()) world_.context.finish();
   }
 
