@@ -22,7 +22,7 @@ Outline outline_of(const Member& member) {
   o.size = type->size;
   o.whole = type->kind == Kind::integer || (type->item && type->item->kind == Kind::integer);
   o.object = type->make ? type : type->item && type->item->make ? type->item : nullptr;
-  if (o.kind != Kind::object) o.standard = as_json(member);
+  if (member.value.exists()) o.standard = as_json(member);
   o.expected = o.kind == Kind::list || o.kind == Kind::map ? expected_count(o.field.count) : expected(o.field, *type);
   return o;
 }
@@ -69,7 +69,7 @@ Json as_type(const Json& object, const OutlineOf& fields, const Outline& chooser
     if (stays)
       changed[name] = object[name];
     else if (!o.is_engine_settings || !o.optional) // the settings of another engine would be refused
-      changed[name] = o.kind == Kind::object && !o.optional ? o.fresh() : o.standard;
+      changed[name] = o.is_engine_settings && !o.optional ? o.fresh() : o.standard;
   }
   return changed;
 }

@@ -24,7 +24,7 @@ struct Outline {
   bool whole = false;                ///< its numbers are
   std::size_t size = 0;              ///< how many numbers a vector has; 0: a list of any length within field.count
   std::vector<Word> words;           ///< all that a word may be
-  Json standard;                     ///< the default; null of an object, whose fields have theirs
+  Json standard;                     ///< the default; null of settings of another engine
   const ValueType* object = nullptr; ///< its own, or that of a list's or a map's items; null where there is no struct
   std::string expected;              ///< what the field may be: "a number from 0 to 1 W", "one of point, spot"
 
