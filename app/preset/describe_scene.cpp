@@ -120,10 +120,8 @@ void describe(Fields& v, Pane& p) {
   }
   if (p.type == Type::measured) {
     v.field("transmittance", "Part of the light that passes straight on.", p.transmittance, {.required = true});
-    v.field("front_reflectance", "Part of the light from the front that comes back.", p.front_reflectance,
-            {.required = true});
-    v.field("back_reflectance", "Part of the light from the back that comes back.", p.back_reflectance,
-            {.required = true});
+    v.field("front_reflectance", "Part of the light from the front that comes back.", p.front_reflectance);
+    v.field("back_reflectance", "Part of the light from the back that comes back.", p.back_reflectance);
   } else
     v.field("file", "A text of rows, as IGDB has them: wavelength in nm or um, transmittance, front, back reflectance.",
             p.file, {.text = Text::file, .required = true});

@@ -96,6 +96,7 @@ protected:
     else if (node.value("minLength", 0) > 0)
       all = owner.starts_with("Dispersion") ? std::vector<std::string>{"N-BK7", "N-SF66"}
             : owner.starts_with("Material") ? std::vector<std::string>{"silver", "brass"}
+            : owner.starts_with("Pane")     ? std::vector<std::string>{"a.txt", "b.txt"}
                                             : std::vector<std::string>{"a.exr", "b.exr"};
     else if (pointer == "/environment/directions")
       all = {"98", "386"};
@@ -230,6 +231,10 @@ protected:
         if (type.empty() && drafted(pointer) == "")
           set(given(property), pointer, candidates(given(property), pointer, owner).front());
       }
+      if (!type.empty() && given(property).value("type", "") == "array" && drafted(pointer).empty()) {
+        search(dotted(pointer));
+        click(pointer + ":add");
+      }
       if (type.empty())
         edit_leaf(given(property), pointer, owner);
       else
@@ -274,6 +279,7 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
   for (const char* file : {"a.exr", "b.exr"})
     image::write_exr(folder.path() / file,
                      {.width = 1, .height = 1, .channels = {"R", "G", "B"}, .data = {0.5f, 0.5f, 0.5f}});
+  for (const char* file : {"a.txt", "b.txt"}) folder.write(file, "400 .5 .1 .1\n700 .5 .1 .1\n");
   Json preset = Json::parse(test::preset_text);
   preset["scene"]["materials"]["glass"] = {{"type", "dielectric"}, {"dispersion", 1.5}};
   preset["scene"]["objects"].push_back({{"name", "floor"}, {"material", "wall"}, {"shape", {{"type", "quad"}}}});
