@@ -84,6 +84,7 @@ struct Session {
 
 void add_run(CLI::App& program, Session& session);
 void add_measure(CLI::App& program, Session& session);
+void add_gem(CLI::App& program, Session& session);
 void add_plan(CLI::App& program, Session& session);
 void add_dispersion(CLI::App& program, Session& session);
 void add_clusters(CLI::App& program, Session& session);
