@@ -35,18 +35,23 @@ struct GemOptions {
   bool json = false;
 };
 
-/// A mesh as the only object of a preset, its lengths in millimetres.
-preset::Preset preset_of_mesh(const fs::path& file, const std::vector<std::string>& overrides) {
-  const Json stone{{"name", "stone"}, {"mesh", fs::absolute(file).string()}, {"material", "stone"}};
-  const Json text{{"unit", "mm"},
-                  {"scene", {{"materials", {{"stone", {{"type", "dielectric"}}}}}, {"objects", {stone}}}}};
-  return preset::parse_preset(text.dump(), file.string(), overrides);
+/// A mesh as the only object of a preset, its lengths in millimetres, of a material that takes the place of n = 1.
+preset::Preset preset_of_mesh(const GemOptions& options) {
+  if (options.material.empty())
+    throw bad_input(options.file, "a mesh has no index of refraction", {},
+                    "say what it is of: --material 1.54, or a dispersion file");
+  const Json glass{{"type", "dielectric"}, {"dispersion", {{"type", "constant"}, {"n", 1}}}},
+      stone{{"name", "stone"}, {"mesh", fs::absolute(options.file).string()}, {"material", "stone"}};
+  const Json text{{"engine", "spectral"},
+                  {"unit", "mm"},
+                  {"scene", {{"materials", {{"stone", glass}}}, {"objects", Json::array({stone})}}}};
+  return preset::parse_preset(text.dump(), options.file, options.overrides);
 }
 
 preset::Preset read_stone_file(const GemOptions& options, const fs::path& temporary) {
   const fs::path file = options.file;
   const std::string ending = lower_case(file.extension().string());
-  if (ending == ".obj" || ending == ".ply" || ending == ".stl") return preset_of_mesh(file, options.overrides);
+  if (ending == ".obj" || ending == ".ply" || ending == ".stl") return preset_of_mesh(options);
   if (ending != ".asc" && ending != ".gltf" && ending != ".glb" && ending != ".xml" && ending != ".pbrt")
     return preset::read_preset(options.file, options.overrides);
   const formats::Imported imported = formats::import_scene(file, temporary / "stone.json");
@@ -75,7 +80,9 @@ preset::Dispersion dispersion_of(const std::string& material) {
   return dispersion;
 }
 
-std::string percent(const meters::Interval& share) { return text_of(share, 0.01); }
+std::string percent(const meters::Interval& share) {
+  return fmt::format("{:.2f} +- {:.2f}", 100 * share.value, 100 * share.half());
+}
 
 std::string tiers_text(const std::vector<gems::Tier>& tiers) {
   std::string text;
@@ -96,22 +103,28 @@ void print_shape(const Stone& stone) {
     if (!tiers->empty()) fmt::print("  {:<9} {}\n", name, tiers_text(*tiers));
 }
 
-void print_light(const GemLight& light, double head_deg) {
-  fmt::print("  light return, %\n  {:<12} {:>18} {:>18} {:>18}\n", "", "ISO", "COS", "HEAD");
-  const auto row = [](const std::string& name, const gems::Returns& r) {
-    fmt::print("  {:<12} {:>18} {:>18} {:>18}\n", name, percent(r.iso), percent(r.cosine), percent(r.head));
+void print_returns(const GemLight& light) {
+  const auto cells = [](const gems::Returns& r) {
+    return fmt::format("{:>15} {:>15} {:>15}", percent(r.iso), percent(r.cosine), percent(r.head));
   };
-  row("face up", light.returns);
-  for (const gems::Tilt& tilt : light.tilts)
-    if (tilt.angle_deg != 0) row(fmt::format("{:+.0f} about {}", tilt.angle_deg, tilt.axis), tilt.returns);
-  fmt::print("  of the outline, {:.4g} mm^2: windows {} %, dark under a head of {:g} degrees {} %\n", light.area_mm2,
-             percent(light.window), head_deg, percent(light.dark));
-  fmt::print("  below the horizon: {} % of the light\n", percent(light.below));
+  fmt::print("  light return, % {:>13} {:>15} {:>15}\n  face up        {}\n", "ISO", "COS", "HEAD",
+             cells(light.returns));
+  const std::size_t half = light.tilts.size() / 2;
+  for (std::size_t i = 0; i < half; ++i)
+    fmt::print("  {:+3.0f} degrees: x {}, z {}\n", light.tilts[i].angle_deg, cells(light.tilts[i].returns),
+               cells(light.tilts[half + i].returns));
+}
+
+void print_light(const GemLight& light, double head_deg) {
+  print_returns(light);
+  fmt::print("  windows {} % of the outline, dark under a head of {:g} degrees {} %\n", percent(light.window), head_deg,
+             percent(light.dark));
+  fmt::print("  light from below the horizon {} %\n", percent(light.below));
   if (light.fire_deg)
-    fmt::print("  fire: {} degrees between C and F\n", text_of(*light.fire_deg));
+    fmt::print("  fire {:.4f} +- {:.4f} degrees between C and F\n", light.fire_deg->value, light.fire_deg->half());
   else
     fmt::print("  fire: none, the index is the same at every wavelength; --material names one that disperses\n");
-  fmt::print("  scintillation: {} % a degree\n", percent(light.scintillation));
+  fmt::print("  scintillation {} % a degree\n", percent(light.scintillation));
   if (light.lost > 1e-5)
     fmt::print("  up to {:.2g} % of the light goes round for ever and is not in these numbers\n", 100 * light.lost);
 }
@@ -197,7 +210,7 @@ void report_gem(const GemOptions& options) {
 void add_gem(CLI::App& program, Session&) {
   const auto options = std::make_shared<GemOptions>();
   Verb verb(program, "gem", "The light return, windows, fire and scintillation of a cut stone, with 95 % intervals",
-            {{"nephroid gem spectral/thesis/diamond-arbitrary-1 --rays 100000", "a table"},
+            {{"nephroid gem spectral/thesis/diamond-arbitrary-1", "a table"},
              {"nephroid gem spectral/thesis/diamond-arbitrary-1 --material materials/diamond-Peter.yml -o out/gem",
               "of diamond, and as files"}},
             "FILE: a stone of GemCad (.asc), a mesh in millimetres with its table up, along +y (.obj, .ply, .stl), a "
@@ -215,7 +228,7 @@ void add_gem(CLI::App& program, Session&) {
   verb.option("--head", options->light.head_deg,
               {.type = "DEG", .says = "Half angle of the head's shadow (default 20)", .from = 0, .to = 90});
   verb.option("--rays", options->light.rays,
-              {.type = "N", .says = "Rays from the eye, of each view (default 1000000)", .from = 1000, .to = 1e9});
+              {.type = "N", .says = "Rays from the eye, of each view (default 100000)", .from = 1000, .to = 1e8});
   verb.option("--seed", options->light.seed, {.type = "N", .says = "Of the random numbers (default 1)", .from = 0});
   verb.device(options->device.selector, options->device.kernels);
   verb.flag("--json", options->json, "One JSON object instead of text");

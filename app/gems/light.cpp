@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace nephroid::gems {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t replicates = 8; ///< independent parts, of which intervals are made
 constexpr double rounding = 1e-5;     ///< of a share, by single precision
 constexpr int tilt_step_deg = 5, most_tilt_deg = 30;
+constexpr int tilted_side = 64;  ///< of views that are no pictures, in pixels
 constexpr double change_deg = 1; ///< between the two views of the scintillation
 
 /// The stone turned by an angle about an axis of its own, 0 x, 1 y, 2 z, as an eye above sees it.
@@ -70,7 +72,7 @@ public:
   Replicates light(const shared::DeviceGemView& view, std::vector<double>* to) {
     Replicates all;
     for (std::size_t r = 0; r < replicates; ++r) {
-      const shared::DeviceGem gem = next(r, to ? options_.side : 64);
+      const shared::DeviceGem gem = next(r, to ? options_.side : tilted_side, options_.rays);
       const std::vector<float> sums = run(light_, GEM_SUMS, gem, view, {});
       all.push_back(totals_of(sums, GEM_SUMS));
       lost_ = std::max(lost_, ratio(all.back()[GEM_LOST], all.back()[GEM_HITS]));
@@ -84,48 +86,53 @@ public:
   Replicates change(const shared::DeviceGemView& one, const shared::DeviceGemView& other) {
     Replicates all;
     for (std::size_t r = 0; r < replicates; ++r)
-      all.push_back(totals_of(run(change_, GEM_CHANGE_SUMS, next(r, 64), one, {{"tilted", other}}), GEM_CHANGE_SUMS));
+      all.push_back(
+          totals_of(run(change_, GEM_CHANGE_SUMS, next(r, tilted_side, 4 * options_.rays), one, {{"tilted", other}}),
+                    GEM_CHANGE_SUMS));
     return all;
   }
 
+  /// X, Y, Z of a sample, [3][pixel].
   std::vector<float> colours(const shared::DeviceGemView& view) {
-    std::vector<float> n(stone_.n.begin(), stone_.n.end()), loss(stone_.loss.begin(), stone_.loss.end());
+    constexpr std::size_t bands = 16;
+    const int count = bands;
     const optics::Spectrum white = optics::illuminant("D65");
     const optics::ColourMatching& eye = optics::cie_1931();
-    double luminance = 0;
-    for (std::size_t i = 0; i < white.size(); ++i) luminance += white[i] * eye.y[i];
+    std::vector<float> n, loss;
+    std::vector<glm::dvec3> colours(bands, glm::dvec3(0));
+    for (std::size_t i = 0; i < white.size(); ++i)
+      colours[i * bands / white.size()] += white[i] * glm::dvec3(eye.x[i], eye.y[i], eye.z[i]);
+    const double luminance =
+        std::accumulate(colours.begin(), colours.end(), 0.0, [](double y, const glm::dvec3& c) { return y + c.y; });
     std::vector<shared::float4> xyz;
-    for (std::size_t i = 0; i < white.size(); ++i) {
-      const double scale = white[i] * static_cast<double>(white.size()) / luminance;
-      xyz.push_back(scene::to_float4(scale * glm::dvec3(eye.x[i], eye.y[i], eye.z[i])));
+    for (std::size_t band = 0; band < bands; ++band) {
+      const std::size_t middle = (2 * band + 1) * white.size() / (2 * bands);
+      n.push_back(static_cast<float>(stone_.n[middle]));
+      loss.push_back(static_cast<float>(stone_.loss[middle]));
+      xyz.push_back(scene::to_float4(static_cast<double>(bands) / luminance * colours[band]));
     }
     const compute::Buffer<float> n_buffer(context_, "indices", std::span<const float>(n)),
         loss_buffer(context_, "losses", std::span<const float>(loss));
     const compute::Buffer<shared::float4> xyz_buffer(context_, "colours", std::span<const shared::float4>(xyz));
-    const int wavelengths = optics::wavelength_count;
-    std::vector<float> sums;
-    shared::DeviceGem gem = next(0, options_.side);
-    for (std::size_t r = 0; r < replicates; ++r) {
-      gem.first = static_cast<std::uint32_t>(r) * static_cast<std::uint32_t>(gem.samples);
-      const std::vector<float> more =
-          run(colour_, GEM_COLOUR_SUMS, gem, view,
-              {{"n", n_buffer}, {"loss", loss_buffer}, {"xyz", xyz_buffer}, {"wavelengths", wavelengths}});
-      sums.resize(more.size());
-      std::ranges::transform(more, sums, sums.begin(), std::plus<>());
-    }
+    shared::DeviceGem gem = next(0, options_.side, options_.rays / static_cast<int>(bands));
+    gem.samples = 1 + (gem.samples - 1) * static_cast<int>(replicates);
+    std::vector<float> sums =
+        run(colour_, GEM_COLOUR_SUMS, gem, view,
+            {{"n", n_buffer}, {"loss", loss_buffer}, {"xyz", xyz_buffer}, {"wavelengths", count}});
+    for (float& sum : sums) sum /= static_cast<float>(gem.samples);
     return sums;
   }
 
   double lost() const { return lost_; }
   int launches = 0; ///< of all, for `advanced`
 
-  /// Samples of a pixel in one replicate.
-  int samples(int side) const {
-    return std::max(1, static_cast<int>(std::lround(options_.rays / (double(replicates) * side * side))));
+  /// Of a pixel in one replicate.
+  static int samples(int side, int rays) {
+    return std::max(1, static_cast<int>(std::lround(rays / (double(replicates) * side * side))));
   }
 
 private:
-  shared::DeviceGem next(std::size_t replicate, int side) const {
+  shared::DeviceGem next(std::size_t replicate, int side, int rays) const {
     shared::DeviceGem gem{};
     gem.n = static_cast<float>(stone_.n_d);
     gem.n_c = static_cast<float>(stone_.n_c);
@@ -134,7 +141,7 @@ private:
     gem.cos_head = static_cast<float>(std::cos(glm::radians(options_.head_deg)));
     gem.root = stone_.bvh.root;
     gem.side = side;
-    gem.samples = samples(side);
+    gem.samples = samples(side, rays);
     gem.first = static_cast<std::uint32_t>(replicate) * static_cast<std::uint32_t>(gem.samples);
     gem.seed = {static_cast<std::uint32_t>(options_.seed), static_cast<std::uint32_t>(options_.seed >> 32)};
     return gem;
@@ -176,8 +183,7 @@ GemPictures pictures_of(const std::vector<double>& sums, const std::vector<float
                                   std::pair(&pictures.cosine, GEM_COS), std::pair(&pictures.head, GEM_HEAD)})
       to->push_back(static_cast<float>(part(static_cast<std::size_t>(sum), i) / samples));
     pictures.spread_deg.push_back(static_cast<float>(glm::degrees(ratio(part(GEM_SPREAD, i), part(GEM_SPREADS, i)))));
-    for (std::size_t c = 1; c < GEM_COLOUR_SUMS; ++c)
-      pictures.xyz.push_back(colours[c * pixels + i] / static_cast<float>(samples));
+    for (std::size_t c = 0; c < GEM_COLOUR_SUMS; ++c) pictures.xyz.push_back(colours[c * pixels + i]);
   }
   return pictures;
 }
@@ -187,8 +193,8 @@ GemPictures pictures_of(const std::vector<double>& sums, const std::vector<float
 GemLight measure_light(const Stone& stone, const LightOptions& options, const compute::Context& context,
                        const std::function<void(double part)>& advanced) {
   Bench bench(stone, options, context, advanced);
-  constexpr int views = 4 * most_tilt_deg / tilt_step_deg + 4; // face up, in colours, two of change, tilts but for 0
-  bench.launches = views * static_cast<int>(replicates);
+  constexpr int views = 4 * most_tilt_deg / tilt_step_deg + 3; // face up, two of change, tilts but for 0
+  bench.launches = views * static_cast<int>(replicates) + 1;
   const shared::DeviceGemView above = view_of(stone, 0, 0);
   std::vector<double> sums;
   const Replicates up = bench.light(above, &sums);
@@ -198,7 +204,7 @@ GemLight measure_light(const Stone& stone, const LightOptions& options, const co
   light.window = share(up, GEM_WINDOW, GEM_HITS);
   light.dark = share(up, GEM_DARK, GEM_HITS);
   if (stone.disperses()) light.fire_deg = share(up, GEM_SPREAD, GEM_SPREADS, 180 / std::numbers::pi);
-  const int samples = static_cast<int>(replicates) * bench.samples(options.side);
+  const int samples = static_cast<int>(replicates) * Bench::samples(options.side, options.rays);
   light.pictures = pictures_of(sums, bench.colours(above), options.side, samples);
   double hits = 0;
   for (const float part : light.pictures.outline) hits += part;

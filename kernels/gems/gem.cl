@@ -8,7 +8,7 @@
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/surface.h"
 
-#define GEM_SPLIT 1e-3f
+#define GEM_SPLIT 1e-2f
 #define GEM_SURFACES 2000 // that a ray meets at most: some go round for ever, as in a cube
 #define GEM_WAITING 4     // branches that may wait; those of a convex stone need one
 
@@ -175,8 +175,8 @@ ITEM_KERNEL(gem_change, (GEM_ARGUMENTS, DeviceGemView tilted), (GEM_NAMES, tilte
   sums[GEM_CHANGE * pixels + index] = change;
 }
 
-// A wavelength a sample, one after the other from a place of the pixel's own. n, loss: [wavelengths]; xyz: the same, of
-// the sky's light, with a mean Y of 1. sums: [GEM_COLOUR_SUMS][pixel], under the head's sky.
+// Each place of the picture at each of a few wavelengths. n, loss: [wavelengths]; xyz: the same, of the sky's light, whose
+// mean has a Y of 1. sums: [GEM_COLOUR_SUMS][pixel], under the head's sky.
 ITEM_KERNEL(gem_colour,
             (GEM_ARGUMENTS, __global const float* n, __global const float* loss, __global const float4* xyz,
              int wavelengths),
@@ -184,20 +184,18 @@ ITEM_KERNEL(gem_colour,
   const uint pixels = (uint)(gem.side * gem.side);
   if (index >= pixels) return;
   const Geometry geometry = gem_geometry(nodes, blocks, primitives, gem.root);
-  float4 total = (float4)(0.0f);
+  float3 total = (float3)(0.0f);
   for (uint s = gem.first; s < gem.first + (uint)gem.samples; ++s) {
-    const float u = random4(gem.seed, 0u, index, 1u, STREAM_GEM_WAVELENGTH).x +
-                    ((float)(s - gem.first) + random4(gem.seed, s, index, 0u, STREAM_GEM_WAVELENGTH).x) / gem.samples;
-    const int w = min((int)((u - floor(u)) * (float)wavelengths), wavelengths - 1);
-    DeviceGem at_wavelength = gem;
-    at_wavelength.n = at_wavelength.n_c = at_wavelength.n_f = n[w];
-    at_wavelength.loss = loss[w];
-    const GemLight light = gem_light_of(&geometry, gem_start(&view, gem_place(&gem, index, s)), view.eye.xyz,
-                                        &at_wavelength, index, s);
-    total += (float4)(light.sums[GEM_HITS], light.sums[GEM_HEAD] * xyz[w].xyz);
+    const float3 position = gem_start(&view, gem_place(&gem, index, s));
+    for (int w = 0; w < wavelengths; ++w) {
+      DeviceGem at_wavelength = gem;
+      at_wavelength.n = at_wavelength.n_c = at_wavelength.n_f = n[w];
+      at_wavelength.loss = loss[w];
+      const GemLight light = gem_light_of(&geometry, position, view.eye.xyz, &at_wavelength, index, s);
+      total += light.sums[GEM_HEAD] / (float)wavelengths * xyz[w].xyz;
+    }
   }
   sums[index] = total.x;
   sums[pixels + index] = total.y;
   sums[2 * pixels + index] = total.z;
-  sums[3 * pixels + index] = total.w;
 }

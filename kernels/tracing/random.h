@@ -28,8 +28,7 @@
 #define STREAM_BAKE 48u                  // environment/bake.cl: iteration is the direction, index the photon
 #define STREAM_SEE 49u                   // environment/see.cl, here and below: index is the pixel
 #define STREAM_SEE_WAVELENGTH 50u        // where a pixel starts in the spectrum
-#define STREAM_GEM 52u                   // gems/gem.cl, here and below: index is the pixel
-#define STREAM_GEM_WAVELENGTH 53u
+#define STREAM_GEM 52u                   // gems/gem.cl: index is the pixel
 #define STREAM_FACETS 64u                // inverse/search.h: iteration is the sweep, index the facet
 #define STREAM_JUDGE 65u                 // inverse/judge.cl: iteration is the ray of a facet, index the facet
 

@@ -75,9 +75,10 @@ TEST_F(GemcadImport, ThePresetHasTheStoneAboveATableWithALampAndACamera) {
   EXPECT_EQ(material_of(p, 0).dispersion.n, 1.54);
   EXPECT_EQ(material_of(p, 1).type, preset::Material::Type::diffuse);
   EXPECT_EQ(p.scene.lights.size(), 1u);
+  EXPECT_FALSE(p.scene.environment.value().lights);
   EXPECT_NEAR(p.scene.objects[0].transform.translate[1], 5 + 1.5, 1e-9); // its centre, 1.5 mm above half its height
   EXPECT_GT(p.scene.camera.position[1], 10);
-  // 1 mW in a cone of 7 degrees, 0.0468 sr, 57 mm away: 6.6 W/m^2, of which the eye takes about a third; over pi.
+  // 67 mW in a cone of 60 degrees, 3.14 sr, 57 mm away: 6.6 W/m^2, of which the eye takes about a third; over pi.
   EXPECT_NEAR(*p.white, 0.7, 0.15);
 }
 

@@ -84,6 +84,7 @@ struct DescribedSurroundings {
   bool is_equal_area = false; ///< PBRT 4's square (Clarberg 2008), its z axis towards the middle
   glm::dvec3 colour{1};
   double scale = 1;
+  bool lights = true;     ///< false: only seen
   glm::dmat3 to_world{1}; ///< from the map's directions: +y is its top, +z in its centre column and
                           ///< +x to the left of that; of a square its own
   std::optional<preset::Environment> sky = {}; ///< a clear sky in place of a map, with its sun_direction

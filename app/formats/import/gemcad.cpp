@@ -211,9 +211,10 @@ DescribedShape shape_of(const char* name, const std::string& mesh, Description& 
   return shape;
 }
 
-/// A white table that the stone stands a little above, a lamp aslant, and a camera that sees both.
+/// A white table that the stone stands a little above, a lamp aslant, grey surroundings that the stone reflects but
+/// that light nothing, and a camera that sees stone and caustic.
 void show(double width, Description& into) {
-  const double a = 4 * width;
+  const double a = 6 * width;
   into.materials["table"].reflectance.value = 0.8;
   into.shapes.push_back(
       shape_of("table", into.own_mesh("table", polygon({{-a, 0, a}, {a, 0, a}, {a, 0, -a}, {-a, 0, -a}})), into));
@@ -222,11 +223,15 @@ void show(double width, Description& into) {
   const glm::dvec3 target(0, 0.4 * width, 0), position(2 * width, 5 * width, -1.7 * width);
   lamp.position = scene::to_vec3(position);
   lamp.direction = scene::to_vec3(glm::normalize(target - position));
-  lamp.half_angle_deg = 7;
-  lamp.power_w = 1e-3;
+  lamp.half_angle_deg = 60;
+  lamp.power_w = 0.067;
   into.lamps.push_back(lamp);
+  DescribedSurroundings& surroundings = into.surroundings.emplace();
+  surroundings.scale = 0.3;
+  surroundings.lights = false;
   DescribedCamera& camera = into.camera.emplace();
-  const glm::dvec3 eye(0, 2.3 * width, 4 * width), forward = glm::normalize(target - eye), right(1, 0, 0);
+  const glm::dvec3 eye(0, 2.4 * width, 3 * width), forward = glm::normalize(glm::dvec3(0, 0.25, 0.2) * width - eye),
+                                                   right(1, 0, 0);
   camera.where = into.source.string();
   camera.to_world = {glm::dvec4(right, 0), glm::dvec4(glm::cross(right, forward), 0), glm::dvec4(forward, 0),
                      glm::dvec4(eye, 1)};

@@ -303,7 +303,7 @@ private:
 
   void surround(const DescribedSurroundings& s) {
     preset::Environment& e = made_.scene.environment.emplace();
-    e.lights = true;
+    e.lights = s.lights;
     e.radiance = s.scale * from_.unit;
     if (s.sky) {
       e = *s.sky;
