@@ -92,9 +92,9 @@ public:
     return all;
   }
 
-  /// X, Y, Z of a sample, [3][pixel].
+  /// X, Y, Z and the part that shows the stone, [4][pixel].
   std::vector<float> colours(const shared::DeviceGemView& view) {
-    constexpr std::size_t bands = 16;
+    constexpr std::size_t bands = 8;
     const int count = bands;
     const optics::Spectrum white = optics::illuminant("D65");
     const optics::ColourMatching& eye = optics::cie_1931();
@@ -114,8 +114,8 @@ public:
     const compute::Buffer<float> n_buffer(context_, "indices", std::span<const float>(n)),
         loss_buffer(context_, "losses", std::span<const float>(loss));
     const compute::Buffer<shared::float4> xyz_buffer(context_, "colours", std::span<const shared::float4>(xyz));
-    shared::DeviceGem gem = next(0, options_.side, options_.rays / static_cast<int>(bands));
-    gem.samples = 1 + (gem.samples - 1) * static_cast<int>(replicates);
+    shared::DeviceGem gem = next(0, options_.side, 0);
+    gem.samples = std::max(4, options_.rays / (count * options_.side * options_.side));
     std::vector<float> sums =
         run(colour_, GEM_COLOUR_SUMS, gem, view,
             {{"n", n_buffer}, {"loss", loss_buffer}, {"xyz", xyz_buffer}, {"wavelengths", count}});
@@ -183,7 +183,8 @@ GemPictures pictures_of(const std::vector<double>& sums, const std::vector<float
                                   std::pair(&pictures.cosine, GEM_COS), std::pair(&pictures.head, GEM_HEAD)})
       to->push_back(static_cast<float>(part(static_cast<std::size_t>(sum), i) / samples));
     pictures.spread_deg.push_back(static_cast<float>(glm::degrees(ratio(part(GEM_SPREAD, i), part(GEM_SPREADS, i)))));
-    for (std::size_t c = 0; c < GEM_COLOUR_SUMS; ++c) pictures.xyz.push_back(colours[c * pixels + i]);
+    for (std::size_t c = 0; c < 3; ++c) pictures.xyz.push_back(colours[c * pixels + i]);
+    pictures.xyz_outline.push_back(colours[3 * pixels + i]);
   }
   return pictures;
 }

@@ -40,6 +40,7 @@ struct GemPictures {
   std::vector<float> iso, cosine, head; ///< radiance over the zenith's, times `outline`
   std::vector<float> spread_deg;        ///< mean angle between C and F of its light; 0 where it has none
   std::vector<float> xyz;               ///< three a pixel, under the head's sky of D65, with Y of 1
+  std::vector<float> xyz_outline;       ///< `outline` of the samples of xyz
 };
 
 struct GemLight {

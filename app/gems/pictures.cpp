@@ -22,7 +22,7 @@ void write_colours(const std::filesystem::path& file, const GemPictures& picture
   for (std::size_t i = 0; i < pictures.outline.size(); ++i)
     for (const double channel :
          optics::xyz_to_linear_srgb({pictures.xyz[3 * i], pictures.xyz[3 * i + 1], pictures.xyz[3 * i + 2]}))
-      rgb.push_back(static_cast<float>(channel) + (1 - pictures.outline[i]) * ground);
+      rgb.push_back(static_cast<float>(channel) + (1 - pictures.xyz_outline[i]) * ground);
   image::write_png(file, pictures.side, pictures.side, rgb);
 }
 

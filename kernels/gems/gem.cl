@@ -184,7 +184,7 @@ ITEM_KERNEL(gem_colour,
   const uint pixels = (uint)(gem.side * gem.side);
   if (index >= pixels) return;
   const Geometry geometry = gem_geometry(nodes, blocks, primitives, gem.root);
-  float3 total = (float3)(0.0f);
+  float4 total = (float4)(0.0f);
   for (uint s = gem.first; s < gem.first + (uint)gem.samples; ++s) {
     const float3 position = gem_start(&view, gem_place(&gem, index, s));
     for (int w = 0; w < wavelengths; ++w) {
@@ -192,10 +192,11 @@ ITEM_KERNEL(gem_colour,
       at_wavelength.n = at_wavelength.n_c = at_wavelength.n_f = n[w];
       at_wavelength.loss = loss[w];
       const GemLight light = gem_light_of(&geometry, position, view.eye.xyz, &at_wavelength, index, s);
-      total += light.sums[GEM_HEAD] / (float)wavelengths * xyz[w].xyz;
+      total += (float4)(light.sums[GEM_HEAD] * xyz[w].xyz, light.sums[GEM_HITS]) / (float)wavelengths;
     }
   }
   sums[index] = total.x;
   sums[pixels + index] = total.y;
   sums[2 * pixels + index] = total.z;
+  sums[3 * pixels + index] = total.w;
 }

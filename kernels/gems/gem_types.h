@@ -27,7 +27,7 @@ namespace nephroid::shared {
 #define GEM_CHANGE 1 // by how much GEM_HEAD differs
 #define GEM_CHANGE_SUMS 2
 
-#define GEM_COLOUR_SUMS 3 // X, Y, Z
+#define GEM_COLOUR_SUMS 4 // X, Y, Z; GEM_HITS
 
 // A parallel view of the stone.
 typedef struct {

@@ -63,14 +63,17 @@ class Stone:
         self.area = hull_area(across)
 
     def turned(self, axis, degrees):
-        """The same stone, turned about x (0) or z (2), counter-clockwise seen from the axis' positive end."""
+        """The same stone, turned about the middle of its bounds: about x (0) or z (2), counter-clockwise seen from the
+        axis' positive end."""
         other = copy.copy(self)
+        middle = (self.corners.min(axis=0) + self.corners.max(axis=0)) / 2
+        other.distances = self.distances - self.normals @ middle
         turn, one, two = math.radians(degrees), (axis + 1) % 3, (axis + 2) % 3
         rotation = np.eye(3)
         rotation[[one, two], [one, two]] = math.cos(turn)
         rotation[two, one] = math.sin(turn)
         rotation[one, two] = -math.sin(turn)
-        other.normals, other.corners = self.normals @ rotation.T, self.corners @ rotation.T
+        other.normals, other.corners = self.normals @ rotation.T, (self.corners - middle) @ rotation.T
         across = other.corners[:, [0, 2]]
         other.low, other.high = across.min(axis=0), across.max(axis=0)
         return other
@@ -344,7 +347,7 @@ def main():
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     write_skies(options.folder)
-    files = [file for file in sorted((HERE / "gems").glob("*.asc")) if not options.stones or file.stem in options.stones]
+    files = [f for f in sorted((HERE / "gems").glob("*.asc")) if not options.stones or f.stem in options.stones]
     for compare in [compare_gem] + ([compare_pictures] if options.passes else []):
         table = Table()
         for file in files:

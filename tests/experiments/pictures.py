@@ -219,6 +219,15 @@ def facades(s, name):
     s.keep(name, [folder / "street-highest.png"])
 
 
+def gems(s, name):
+    """The pictures of a report, not of a run."""
+    folder = s.folder / "gems"
+    stone = ROOT / "tests" / "experiments" / "gems" / "round-brilliant.asc"
+    rays = 1000 if s.small else 2000000
+    s.call(s.program, "gem", stone, "--material", "materials/diamond-Peter.yml", "--rays", rays, "-o", folder)
+    s.keep(name, [folder / f"{picture}.png" for picture in ("iso", "head", "colour", "fire")], 4)
+
+
 def inverse_glass(s, name):
     s.keep(
         name,
@@ -363,6 +372,9 @@ MAKERS = {
     "grazing-rainbow.png": grazing_rainbow,
     "meters-facade.png": meters_facade,
     "facades.png": facades,
+
+
+    "gems.png": gems,
     "inverse-glass.png": inverse_glass,
     "gallery.jpg": gallery,
     "materials.jpg": materials,
