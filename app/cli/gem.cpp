@@ -40,12 +40,16 @@ preset::Preset preset_of_mesh(const GemOptions& options) {
   if (options.material.empty())
     throw bad_input(options.file, "a mesh has no index of refraction", {},
                     "say what it is of: --material 1.54, or a dispersion file");
-  const Json glass{{"type", "dielectric"}, {"dispersion", {{"type", "constant"}, {"n", 1}}}},
-      stone{{"name", "stone"}, {"mesh", fs::absolute(options.file).string()}, {"material", "stone"}};
-  const Json text{{"engine", "spectral"},
-                  {"unit", "mm"},
-                  {"scene", {{"materials", {{"stone", glass}}}, {"objects", Json::array({stone})}}}};
-  return preset::parse_preset(text.dump(), options.file, options.overrides);
+  preset::Preset preset;
+  preset.source = options.file;
+  preset.unit = preset::Preset::Unit::mm;
+  preset::Material& glass = preset.scene.materials["stone"];
+  glass.type = preset::Material::Type::dielectric;
+  glass.dispersion.n = 1;
+  preset::Object& stone = preset.scene.objects.emplace_back();
+  stone.name = stone.material = "stone";
+  stone.mesh = fs::absolute(options.file).string();
+  return preset::with_overrides(preset, options.overrides);
 }
 
 preset::Preset read_stone_file(const GemOptions& options, const fs::path& temporary) {

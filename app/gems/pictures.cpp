@@ -5,6 +5,8 @@
 #include "measure/difference.h"
 #include "optics/colour.h"
 
+#include <algorithm>
+
 namespace nephroid::gems {
 namespace {
 

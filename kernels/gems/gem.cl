@@ -175,8 +175,8 @@ ITEM_KERNEL(gem_change, (GEM_ARGUMENTS, DeviceGemView tilted), (GEM_NAMES, tilte
   sums[GEM_CHANGE * pixels + index] = change;
 }
 
-// Each place of the picture at each of a few wavelengths. n, loss: [wavelengths]; xyz: the same, of the sky's light, whose
-// mean has a Y of 1. sums: [GEM_COLOUR_SUMS][pixel], under the head's sky.
+// Each place of the picture at each of a few wavelengths. n, loss: [wavelengths]; xyz: the same, of the sky's light,
+// whose mean has a Y of 1. sums: [GEM_COLOUR_SUMS][pixel], under the head's sky.
 ITEM_KERNEL(gem_colour,
             (GEM_ARGUMENTS, __global const float* n, __global const float* loss, __global const float4* xyz,
              int wavelengths),

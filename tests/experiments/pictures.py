@@ -223,9 +223,16 @@ def gems(s, name):
     """The pictures of a report, not of a run."""
     folder = s.folder / "gems"
     stone = ROOT / "tests" / "experiments" / "gems" / "round-brilliant.asc"
-    rays = 1000 if s.small else 2000000
+    rays = 1000 if s.small else 600000
     s.call(s.program, "gem", stone, "--material", "materials/diamond-Peter.yml", "--rays", rays, "-o", folder)
     s.keep(name, [folder / f"{picture}.png" for picture in ("iso", "head", "colour", "fire")], 4)
+
+
+def gems_table(s, name):
+    stone = ROOT / "tests" / "experiments" / "gems" / "round-brilliant.asc"
+    s.call(s.program, "import", stone, "-o", s.folder / "gem.json", "--replace")
+    glass = ["scene.materials.stone.dispersion=materials/diamond-Peter.yml"]
+    s.keep(name, [s.render("gems-table", str(s.folder / "gem.json"), glass, seconds=120)])
 
 
 def inverse_glass(s, name):
@@ -375,6 +382,7 @@ MAKERS = {
 
 
     "gems.png": gems,
+    "gems-table.jpg": gems_table,
     "inverse-glass.png": inverse_glass,
     "gallery.jpg": gallery,
     "materials.jpg": materials,

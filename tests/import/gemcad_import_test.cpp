@@ -78,7 +78,7 @@ TEST_F(GemcadImport, ThePresetHasTheStoneAboveATableWithALampAndACamera) {
   EXPECT_FALSE(p.scene.environment.value().lights);
   EXPECT_NEAR(p.scene.objects[0].transform.translate[1], 5 + 1.5, 1e-9); // its centre, 1.5 mm above half its height
   EXPECT_GT(p.scene.camera.position[1], 10);
-  // 67 mW in a cone of 60 degrees, 3.14 sr, 57 mm away: 6.6 W/m^2, of which the eye takes about a third; over pi.
+  // 100 mW in a cone of 75 degrees, 4.66 sr, 57 mm away: 6.6 W/m^2, of which the eye takes about a third; over pi.
   EXPECT_NEAR(*p.white, 0.7, 0.15);
 }
 

@@ -223,8 +223,8 @@ void show(double width, Description& into) {
   const glm::dvec3 target(0, 0.4 * width, 0), position(2 * width, 5 * width, -1.7 * width);
   lamp.position = scene::to_vec3(position);
   lamp.direction = scene::to_vec3(glm::normalize(target - position));
-  lamp.half_angle_deg = 60;
-  lamp.power_w = 0.067;
+  lamp.half_angle_deg = 75;
+  lamp.power_w = 0.1;
   into.lamps.push_back(lamp);
   DescribedSurroundings& surroundings = into.surroundings.emplace();
   surroundings.scale = 0.3;
