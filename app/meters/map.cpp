@@ -193,7 +193,6 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
   return bitmap;
 }
 
-
 measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading) {
   const std::vector<float> values = shown_values(meter, reading);
   return false_colours(meter, surface, values, measure::colour_scale(values), "");

@@ -8,6 +8,7 @@
 #include "real_window.h"
 #include "scenes.h"
 #include "spectral/settings.h"
+#include "ui/meters/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::panel_pictures_test {
@@ -296,6 +297,23 @@ TEST_F(PanelPictures, AMetalIsChosen) {
   window.save();
   EXPECT_EQ(window.quit().exit_code, 0);
   EXPECT_EQ(preset::read_preset(file).scene.materials.at("metal").metal, "silver");
+}
+
+TEST_F(PanelPictures, AMetersMapLiesOnThePicture) {
+  const std::string file = NEPHROID_SOURCE_DIR "/presets/measuring/concave-facade.json";
+  test::HeadlessWindow<test::SceneRuns> like(tall, "meters", file);
+  const Canvas canvas = like.view().canvas();
+  const test::Pixel box = pixel(like.workspace.panel<MetersPanel>().place_of("on the picture").value());
+  test::PlayedWindow window(file, {"--layout", "meters", "--size", fmt::format("{}x{}", tall[0], tall[1])},
+                            folder.path());
+  window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
+  window.click(box);
+  taken(window, "window-meters.png", "violet on the street", [&](const image::Image& picture) {
+    return std::ranges::count_if(colours_in(picture, canvas), [](const std::array<int, 3>& colour) {
+             return colour[2] > colour[1] + 40 && colour[0] > colour[1] + 15;
+           }) > 2000;
+  });
+  EXPECT_EQ(window.quit().exit_code, 0);
 }
 
 TEST_F(PanelPictures, AnAnimationIsScrubbed) {

@@ -77,8 +77,7 @@ std::vector<Action> add_actions() {
       add_action("lamp", "A point light above the camera's target", Thing::lamp),
       add_action("sun", "Parallel light from a small disc", Thing::sun),
       add_action("sky", "Clear sky and sun, today at noon in Crete", Thing::sky),
-      {"Add meter", 0, "On the selected object, else on the first matt one; the panel Meters shows it", has_things,
-       add_meter, why_no_things},
+      {"Add meter", 0, "On the selected object, else the first matt one", has_things, add_meter, why_no_things},
       {"Add camera", 0, "One that sees all objects; the old one is bookmarked", has_things, add_camera, why_no_things},
   };
 }

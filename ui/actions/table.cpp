@@ -137,8 +137,7 @@ void add_result_actions(std::vector<Action>& actions) {
     actions.push_back(
         {result.action, 0,
          fmt::format(
-             "Save what a finished run of the engine {} found in a new folder beside the preset, else in the current "
-             "one, and open it {}",
+             "Save what a finished run of the engine {} found in a new folder beside the preset, and open it {}",
              name_of(*engine), result.what),
          [file = result.file](C c) {
            return has_picture(c) && c.run.snapshot_is_current() &&
@@ -159,7 +158,7 @@ std::vector<Action> run_actions() {
       {"Cancel", shift | ImGuiKey_F5, "End the run; its picture stays", works, push<command::Cancel>},
       {"Pin this run", ImGuiKey_P, "Keep its history and its picture, to compare later runs with", has_picture,
        push<command::PinRun>},
-      {"Start the sweep", 0, "Run the preset with each combination of the values that are swept; each result is pinned",
+      {"Start the sweep", 0, "Run the preset with each combination of the swept values; each result is pinned",
        can_sweep, push<command::StartSweep>, why_no_sweep},
       {"Stop the sweep", 0, "What is done stays pinned; the run of the preset starts again", sweeps,
        push<command::StopSweep>, [](C) { return std::string("no sweep is running"); }},
@@ -195,18 +194,18 @@ bool is_light(C c) { return c.settings.theme == Theme::light; }
 std::vector<Action> window_actions() {
   std::vector<Action> all;
   for (const PanelEntry& entry : panel_table()) all.push_back(panel_action(entry));
-  all.insert(all.end(),
-             {{"Reset layout", 0, "Every panel of this engine back to its place, all of them open", has_preset,
-               push<command::ResetLayout>},
-              {"Light theme", 0, "Dark words on light panels, or the other way round; pictures stay on a dark ground",
-               always, [](C c) { set_appearance(c, is_light(c) ? Theme::dark : Theme::light, c.settings.text_size); },
-               nullptr, nullptr, is_light},
-              repeating({"Larger text", ctrl | ImGuiKey_Equal, "Everything in the window a tenth larger", always,
-                         [](C c) { set_appearance(c, c.settings.theme, c.settings.text_size * text_step); }}),
-              repeating({"Smaller text", ctrl | ImGuiKey_Minus, "Everything in the window a tenth smaller", always,
-                         [](C c) { set_appearance(c, c.settings.theme, c.settings.text_size / text_step); }}),
-              {"Text as the display has it", ctrl | ImGuiKey_0, "The size of text that the display asks for", always,
-               [](C c) { set_appearance(c, c.settings.theme, 1); }}});
+  all.insert(
+      all.end(),
+      {{"Reset layout", 0, "Every panel of this engine open and in its place", has_preset, push<command::ResetLayout>},
+       {"Light theme", 0, "Dark words on light panels, or the other way round; pictures stay on a dark ground", always,
+        [](C c) { set_appearance(c, is_light(c) ? Theme::dark : Theme::light, c.settings.text_size); }, nullptr,
+        nullptr, is_light},
+       repeating({"Larger text", ctrl | ImGuiKey_Equal, "Everything in the window a tenth larger", always,
+                  [](C c) { set_appearance(c, c.settings.theme, c.settings.text_size * text_step); }}),
+       repeating({"Smaller text", ctrl | ImGuiKey_Minus, "Everything in the window a tenth smaller", always,
+                  [](C c) { set_appearance(c, c.settings.theme, c.settings.text_size / text_step); }}),
+       {"Text as the display has it", ctrl | ImGuiKey_0, "The size of text that the display asks for", always,
+        [](C c) { set_appearance(c, c.settings.theme, 1); }}});
   return all;
 }
 

@@ -85,6 +85,7 @@ void MetersPanel::draw_choices(const Context& context) {
   const std::vector<preset::Meter>& meters = context.preset()->scene.meters;
   const auto in_hand = std::ranges::find(meters, name_, &preset::Meter::name);
   if (in_hand == meters.end()) name_ = meters.front().name;
+  ViewSettings view = context.view_settings();
   ImGui::SetNextItemWidth(12 * em());
   {
     Combo names("##meter", name_, &places_, "meter");
@@ -92,7 +93,18 @@ void MetersPanel::draw_choices(const Context& context) {
       if (names.entry(meter.name, meter.name == name_)) {
         name_ = meter.name;
         cell_.reset();
+        if (!view.meter.empty()) {
+          view.meter = name_;
+          context.push(command::SetViewSettings{view});
+        }
       }
+  }
+  bool on = view.meter == name_;
+  ImGui::SameLine();
+  if (places_.checkbox("On the picture", &on, "on the picture",
+                       "Shows the map where the View's picture has its cells")) {
+    view.meter = on ? name_ : std::string();
+    context.push(command::SetViewSettings{view});
   }
   const auto& snapshot = context.run.snapshot();
   const meters::Shown* meter = nullptr;
@@ -100,26 +112,17 @@ void MetersPanel::draw_choices(const Context& context) {
     for (const meters::Shown& m : snapshot->meters->meters)
       if (m.meter.name == name_ && m.reading) meter = &m;
   if (meter) {
-    same_line_if_room(7 * em());
     ImGui::SetNextItemWidth(7 * em());
     {
       Combo units("##unit", std::string(preset::word(unit_now_)), &places_, "unit");
       for (const preset::Meter::Unit unit : units_of(*meter->surface))
         if (units.entry(std::string(preset::word(unit)), unit == unit_now_)) unit_ = unit;
     }
-    same_line_if_room(8 * em());
+    ImGui::SameLine();
     ImGui::SetNextItemWidth(8 * em());
     Combo layers("##layer", layer_, &places_, "layer");
     for (const LayerReading& layer : meter->reading->layers)
       if (layers.entry(layer.name, layer.name == layer_)) layer_ = layer.name;
-  }
-  ViewSettings view = context.view_settings();
-  bool on = view.meter == name_;
-  same_line_if_room(10 * em());
-  if (places_.checkbox("On the picture", &on, "on the picture",
-                       "Shows the map where the View's picture has its cells")) {
-    view.meter = on ? name_ : std::string();
-    context.push(command::SetViewSettings{view});
   }
 }
 
