@@ -308,6 +308,7 @@ TEST_F(PanelPictures, AMetersMapLiesOnThePicture) {
                             folder.path());
   window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
   window.click(box);
+  window.move({9, tall[1] - 9});
   taken(window, "window-meters.png", "violet on the street", [&](const image::Image& picture) {
     return std::ranges::count_if(colours_in(picture, canvas), [](const std::array<int, 3>& colour) {
              return colour[2] > colour[1] + 40 && colour[0] > colour[1] + 15;

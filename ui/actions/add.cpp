@@ -74,10 +74,10 @@ std::vector<Action> add_actions() {
       add_action("glass", "A glass ball on the ground, in sight", Thing::glass),
       add_action("table", "A floor; where there is one, a slab", Thing::table),
       {"Add mesh...", 0, "An object from a file", has_things, ask<Question::add_mesh>, why_no_things},
-      add_action("lamp", "A point light above the camera's target", Thing::lamp),
+      add_action("lamp", "A point light above the target", Thing::lamp),
       add_action("sun", "Parallel light from a small disc", Thing::sun),
       add_action("sky", "Clear sky and sun, today at noon in Crete", Thing::sky),
-      {"Add meter", 0, "On the selected object, else the first matt one", has_things, add_meter, why_no_things},
+      {"Add meter", 0, "On the selected object, else the first matt", has_things, add_meter, why_no_things},
       {"Add camera", 0, "One that sees all objects; the old one is bookmarked", has_things, add_camera, why_no_things},
   };
 }
