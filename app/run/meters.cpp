@@ -5,6 +5,7 @@
 #include "engine/engine.h"
 #include "preset/json_text.h"
 #include "run/memory.h"
+#include "scene/placement.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -86,6 +87,7 @@ Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, co
     next.origin = scene.origin;
     next.surface =
         std::make_shared<const scene::MeterSurface>(scene::make_meter(meter, scene, where / static_cast<int>(i)));
+    if (auto line = scene::covered(*next.surface, scene, *prepared.loaded->bvh)) notes_.push_back(std::move(*line));
     const scene::Scene view = scene::meter_view(scene, *next.surface);
     next.plan = photons::plan_meter(preset, meter_settings(preset), view, *prepared.loaded->bvh);
     if (next.is_dark()) notes_.push_back(fmt::format("{} is dark: {}", meter.name, next.plan.decisions.front().reason));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/placement.h"
 
+#include "scene/ray.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,6 +92,27 @@ std::vector<std::string> hidden_lamps(const Scene& scene) {
     }
   }
   return lines;
+}
+
+std::optional<std::string> covered(const MeterSurface& meter, const Scene& scene, const Bvh& bvh) {
+  if (meter.object >= 0 || meter.is_goniometer()) return {};
+  const CountsPrimitive is_opaque = [&](std::uint32_t primitive) {
+    return !is_refractive(material_of(scene, scene.objects[scene.object_of_primitive[primitive]]).type);
+  };
+  const std::size_t probes = std::min<std::size_t>(meter.count(), 64);
+  std::map<std::uint32_t, std::size_t> count_of; // [object]
+  for (std::size_t probe = 0; probe < probes; ++probe) {
+    const std::size_t cell = probe * meter.count() / probes;
+    const double reach = 0.1 * std::sqrt(meter.areas[cell]);
+    const auto hit = closest_hit(bvh, meter.centres[cell], meter.normals[cell], is_opaque, reach);
+    if (hit) ++count_of[scene.object_of_primitive[hit->primitive]];
+  }
+  for (const auto& [object, count] : count_of)
+    if (2 * count > probes)
+      return fmt::format("the meter '{}' looks at '{}' from close by, which covers it: move it to the other side, or "
+                         "turn its normal",
+                         meter.name, scene.objects[object].name);
+  return {};
 }
 
 } // namespace nephroid::scene

@@ -208,9 +208,9 @@ def meters_facade(s, name):
     s.keep(name, [folder / "street.png"])
 
 
-def facades(s, name):
+def facade(s, name):
     """The map of the highest hour of a year."""
-    folder = s.folder / "facades"
+    folder = s.folder / "facade"
     every, seconds = (180, 0.1) if s.small else (14, 1)
     s.call(
         *(s.program, "measure", "street", "--hours", "year", "--every", every, "--until", 5, "--seconds", seconds),
@@ -378,9 +378,7 @@ MAKERS = {
     "first-light.png": first_light,
     "grazing-rainbow.png": grazing_rainbow,
     "meters-facade.png": meters_facade,
-    "facades.png": facades,
-
-
+    "tours/facade.png": facade,
     "gems.png": gems,
     "gems-table.jpg": gems_table,
     "inverse-glass.png": inverse_glass,

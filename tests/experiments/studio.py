@@ -20,7 +20,7 @@ class Studio:
 
     def __init__(self, program, folder, docs, small=False):
         self.program, self.folder, self.docs, self.small = str(Path(program).resolve()), Path(folder), docs, small
-        for page in [*sorted((ROOT / "docs" / "tours").glob("*.md")), ROOT / "docs" / "facades.md"]:
+        for page in sorted((ROOT / "docs" / "tours").glob("*.md")):
             for name, content in Page(page, ROOT).files:
                 (self.folder / name).write_bytes(content)
 

@@ -55,4 +55,23 @@ TEST(Placement, LampsThatCannotShineAreTold) {
   EXPECT_THAT(of_lamp({0, 2, 0}), IsEmpty()) << "glass lets it out";
 }
 
+TEST(Placement, PlanesThatAreCoveredAreTold) {
+  const auto of_plane = [](double height, const preset::Vec3& normal) {
+    const preset::Preset preset = table_and_ball();
+    const Scene scene = load_scene(preset);
+    preset::Meter meter;
+    meter.type = preset::Meter::Type::plane;
+    meter.name = "sheet";
+    meter.position = {-1, height, 0};
+    meter.normal = normal;
+    meter.size = {0.2, 0.2};
+    meter.cell = 0.05;
+    return covered(make_meter(meter, scene, Location("test")), scene, build_bvh(scene.geometry));
+  };
+  EXPECT_EQ(of_plane(0.001, {0, 1, 0}), std::nullopt);
+  EXPECT_THAT(of_plane(-0.001, {0, 1, 0}), Optional(HasSubstr("'sheet' looks at 'table' from close by")));
+  EXPECT_THAT(of_plane(0.001, {0, -1, 0}), Optional(HasSubstr("'sheet' looks at 'table' from close by")));
+  EXPECT_EQ(of_plane(0.1, {0, -1, 0}), std::nullopt) << "two cells away light comes from the sides";
+}
+
 } // namespace nephroid::scene::placement_test
