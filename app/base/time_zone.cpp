@@ -12,12 +12,19 @@
 namespace nephroid {
 namespace {
 
+/// Files of zones list their changes. Those of the kind 'slim' end early, and the library would take the last offset.
+constexpr date::sys_days summer_of_last_year = date::year{2037} / 6 / 21;
+
 const date::tzdb& zones() {
   try {
-    return date::get_tzdb(); // read once
+    const date::tzdb& all = date::get_tzdb(); // read once
+    static const bool has_rules = date::locate_zone(std::string("Europe/London"))->get_info(summer_of_last_year).offset.count() > 0;
+    if (has_rules) return all;
   } catch (const std::runtime_error& error) {
     throw failed("the system's time zones", error.what(), "expected those of the package tzdata");
   }
+  throw failed("the system's time zones", "have no summer time in 2037", "expected files of the kind 'fat'",
+               "give the sky's utc_offset_h in place of its time_zone");
 }
 
 double hours_of(const date::sys_info& info) { return static_cast<double>(info.offset.count()) / 3600; }

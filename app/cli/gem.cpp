@@ -203,7 +203,9 @@ void report_gem(const GemOptions& options) {
       print_light(light, options.light.head_deg);
     }
     if (options.folder.empty()) return;
-    fs::create_directories(options.folder);
+    std::error_code error;
+    fs::create_directories(options.folder, error);
+    if (error) throw failed(options.folder, error.message(), "expected a folder that can be made");
     write_file_whole(options.folder / "report.json", report.dump(2) + "\n");
     gems::write_pictures(options.folder, light.pictures, stone.disperses());
   });

@@ -112,7 +112,7 @@ void drive(const MeasureOptions& options, run::Metering& metering, const std::st
   LiveLine line;
   const bool shows = progress_style(options.json) == ProgressStyle::live;
   const auto all_read = [&] {
-    return std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading.has_value(); });
+    return std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading != nullptr; });
   };
   while (!interrupted.stop_requested()) {
     if (metering.advance() && shows) {

@@ -70,13 +70,13 @@ struct Series {
   preset::Meter meter;
   std::vector<Line> lines;
   CellSums sums;
-  std::optional<double> threshold; ///< W/m^2 or lx; nothing where it is of the other quantity than the unit
-  std::optional<Reading> highest;  ///< of the hour with the highest peak; nothing: none has light
-  scene::MeterSurface surface;     ///< of all hours
-  double lost_share = 0;           ///< the largest of an hour (photons::MeterRun)
-  std::uint64_t refused = 0;       ///< in all hours
-  glm::dvec3 origin{0};            ///< preset coordinates of the scene's (0, 0, 0)
-  run::MapFilm film;               ///< of all hours, where files are written
+  std::optional<double> threshold;        ///< W/m^2 or lx; nothing where it is of the other quantity than the unit
+  std::shared_ptr<const Reading> highest; ///< of the hour with the highest peak; nothing: none has light
+  scene::MeterSurface surface;            ///< of all hours
+  double lost_share = 0;                  ///< the largest of an hour (photons::MeterRun)
+  std::uint64_t refused = 0;              ///< in all hours
+  glm::dvec3 origin{0};                   ///< preset coordinates of the scene's (0, 0, 0)
+  run::MapFilm film;                      ///< of all hours, where files are written
 
   explicit Series(const preset::Meter& of) : meter(of) {
     if (!of.threshold) return;
@@ -209,7 +209,12 @@ void report(const HoursOptions& options, const run::Hours& hours, const std::vec
   for (const Series& series : by_meter) {
     object["meters"].push_back(to_json(series, hours));
     if (!options.json) print_text(series, hours, range);
-    if (options.folder.empty() || !series.highest) continue;
+  }
+  if (options.json) fmt::print("{}\n", json_text(object));
+  if (options.folder.empty()) return;
+  write_file_whole(options.folder / "hours.json", object.dump(2) + "\n"); // first: films are large
+  for (const Series& series : by_meter) {
+    if (!series.highest) continue;
     const std::string stem = preset::file_stem(series.meter);
     write_file_whole(options.folder / (stem + "-hours.csv"), hours_csv(series));
     write_file_whole(options.folder / (stem + "-cells.csv"), cells_csv(series));
@@ -219,8 +224,6 @@ void report(const HoursOptions& options, const run::Hours& hours, const std::vec
                                                options.folder / (stem + "-hours.mp4"), series.meter, series.surface))
       fmt::print(stderr, "note: {}: there is no video: {}\n", series.meter.name, *why_not);
   }
-  if (options.json) fmt::print("{}\n", json_text(object));
-  if (!options.folder.empty()) write_file_whole(options.folder / "hours.json", object.dump(2) + "\n");
 }
 
 /// To the same interval in every hour, whatever the meters ask for when they are measured once. False: interrupted.
@@ -230,7 +233,7 @@ bool measure_hour(const HoursOptions& options, run::Metering& metering, const st
                seconds = options.seconds.value_or(usual_seconds) * static_cast<double>(metering.meters().size());
   while (!interrupted.stop_requested()) {
     metering.advance();
-    if (!std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading.has_value(); })) continue;
+    if (!std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading != nullptr; })) continue;
     const bool is_enough = std::ranges::all_of(
         metering.meters(), [&](const MeterInHand& m) { return m.relative_half_width() <= percent / 100; });
     if (is_enough || metering.work_seconds() >= seconds) return true;

@@ -178,7 +178,11 @@ void say_end(const RunOptions& options, const Target& target, const job::Job& jo
   const job::Snapshot& last = console.last();
   const job::Progress& progress = last.progress;
   report_result(options, target, progress, console.is_finished());
-  if (last.meters) say_meters(options, target, *last.meters);
+  if (last.meters)
+    say_meters(options, target, *last.meters);
+  else if (!target.preset.scene.meters.empty())
+    fmt::print(stderr, "note: {}: the run ended before its meters had read: nephroid measure gives them more time\n",
+               target.label);
   for (const std::string& warning : last.warnings) fmt::print(stderr, "note: {}: {}\n", target.label, warning);
   if (job.finished() && last.stands_in)
     throw failed(target.folder.string(), "the run ended before its first picture, after " + where_time_went(last),

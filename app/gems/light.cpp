@@ -138,7 +138,7 @@ private:
     gem.n_c = static_cast<float>(stone_.n_c);
     gem.n_f = static_cast<float>(stone_.n_f);
     gem.loss = static_cast<float>(stone_.loss_d);
-    gem.cos_head = static_cast<float>(std::cos(glm::radians(options_.head_deg)));
+    gem.cos_head = options_.head_deg > 0 ? static_cast<float>(std::cos(glm::radians(options_.head_deg))) : 2; // none
     gem.root = stone_.bvh.root;
     gem.side = side;
     gem.samples = samples(side, rays);

@@ -24,8 +24,7 @@ preset::Preset alone(const preset::Preset& preset, const std::string& name) {
   std::string names;
   for (const preset::Object& object : preset.scene.objects) {
     const auto material = preset.scene.materials.find(object.material);
-    const bool is_body = material != preset.scene.materials.end() && preset::is_refractive(material->second.type) &&
-                         !material->second.thin;
+    const bool is_body = material != preset.scene.materials.end() && preset::is_body(material->second);
     if (!name.empty() && object.name == name && !is_body)
       throw bad_input(where, fmt::format("\"{}\" is no body of glass", name), "expected one of a dielectric");
     if (!is_body) continue;

@@ -72,9 +72,9 @@ int segments(char character) {
   return character == 'E' ? 0x79 : character == '-' ? 0x40 : 0;
 }
 
-/// Three digits at most, exponents as short as they can be: 0.05, 12.5, 1E-6.
+/// Four digits at most, exponents as short as they can be: 0.05, 12.5, 1E-6.
 std::string number_text(double value) {
-  std::string text = fmt::format("{:.3G}", value == 0 ? 0.0 : value);
+  std::string text = fmt::format("{:.4G}", value == 0 ? 0.0 : value);
   const std::size_t exponent = text.find('E');
   if (exponent == std::string::npos) return text;
   const std::string sign = text[exponent + 1] == '-' ? "-" : "";

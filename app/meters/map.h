@@ -20,7 +20,7 @@ struct Map {
 };
 Map map_of(const scene::MeterSurface& surface);
 
-/// Rows of cell, place, normal, area; irradiance and illuminance with the halves of their intervals; then each layer's.
+/// Rows of cell, place, normal, area; irradiance and illuminance with both ends of their intervals; then each layer's.
 /// origin: preset coordinates of the scene's (0, 0, 0). Places are in the preset's unit.
 /// Of a goniometer each cell has its gamma and C in their place, and its solid angle.
 std::string csv(const scene::MeterSurface& surface, const glm::dvec3& origin, double metres_per_unit,

@@ -44,17 +44,25 @@ struct Face {
 };
 Face face(const Medium& front, std::span<const Film* const> films, const Medium& back, Polarisation p, double sine,
           std::size_t wavelength, double nm) {
+  constexpr double opaque = 20; // exp(-2 x 20) of the light comes through the film
+  double passes = 1;
   Complex b = 1, c = admittance(back, p);
   for (auto film = films.rbegin(); film != films.rend(); ++film) {
     const Medium layer = medium({(*film)->n[wavelength], -(*film)->k[wavelength]}, sine);
     const Complex phase = 2 * std::numbers::pi * layer.n * (*film)->thickness_nm / nm * layer.cosine,
-                  y = admittance(layer, p), cos = std::cos(phase), sin = Complex(0, 1) * std::sin(phase);
+                  y = admittance(layer, p);
+    if (std::abs(phase.imag()) > opaque) {
+      b = 1, c = y, passes = 0;
+      continue;
+    }
+    const Complex cos = std::cos(phase), sin = Complex(0, 1) * std::sin(phase);
     const Complex b_before = b;
     b = cos * b + sin / y * c;
     c = sin * y * b_before + cos * c;
   }
   const Complex y = admittance(front, p);
-  return {std::norm((y * b - c) / (y * b + c)), 4 * y.real() * admittance(back, p).real() / std::norm(y * b + c)};
+  return {std::norm((y * b - c) / (y * b + c)),
+          passes * 4 * y.real() * admittance(back, p).real() / std::norm(y * b + c)};
 }
 
 GlazingParts parts_of(const GlassPane& pane, double cosine, Polarisation p, std::size_t wavelength, double nm) {

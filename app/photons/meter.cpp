@@ -118,7 +118,7 @@ public:
   }
   double work_seconds() const override { return work_seconds_; }
 
-  std::vector<MeterLayer> layers() override {
+  std::vector<MeterLayer> layers(bool steers) override {
     std::vector<MeterLayer> of_stages, layers;
     for (std::size_t s = 0; s < stages_.size(); ++s) {
       job::Picture picture;
@@ -127,7 +127,7 @@ public:
       stages_[s].stage->develop(turns_[s].passes, false, picture);
       of_stages.push_back(in_watts(picture.layers.front()));
     }
-    share_work(of_stages);
+    if (steers) share_work(of_stages);
     for (const MeterLayer& stage : of_stages) {
       const auto same = std::ranges::find(layers, stage.name, &MeterLayer::name);
       if (same == layers.end())
@@ -231,7 +231,7 @@ public:
   std::int64_t cycles() const override { return cycles_; }
   std::uint64_t photons() const override { return 0; }
   double work_seconds() const override { return 0; }
-  std::vector<MeterLayer> layers() override { return {dark_}; }
+  std::vector<MeterLayer> layers(bool) override { return {dark_}; }
   double lost_share() override { return 0; }
   std::uint64_t refused() override { return 0; }
   void serialize(tracing::Archive& archive) override { archive.value(cycles_); }

@@ -32,8 +32,8 @@ public:
   virtual std::uint64_t photons() const = 0;
   /// Seconds of work.
   virtual double work_seconds() const = 0;
-  /// Right after a cycle. Shares out the work of the next ones by the noise until then.
-  virtual std::vector<MeterLayer> layers() = 0;
+  /// Right after a cycle. steers: the work of the next ones is shared out by the noise until then.
+  virtual std::vector<MeterLayer> layers(bool steers) = 0;
   /// The part of the photons' power that met too many surfaces.
   virtual double lost_share() = 0;
   /// Contributions that were too large for a film: 0 in a sound run.

@@ -62,10 +62,9 @@ public:
 
   /// What was measured with another worth is forgotten; the present guide stays until there is more.
   void weigh_cells(const std::vector<float>& worth) override {
-    worth_.write(worth);
-    guide_.forget();
-    moments_.fill_zero();
-    guide_moments_.fill_zero();
+    weights_ = worth;
+    worth_.write(weights_);
+    forgets_ = true;
   }
 
   bool advance_preview() override {
@@ -93,6 +92,9 @@ public:
     guide_.serialize(archive);
     archive.buffer(moments_);
     archive.buffer(guide_moments_);
+    archive.value(forgets_);
+    archive.list(weights_);
+    if (archive.is_read() && !weights_.empty()) worth_.write(weights_);
     if (archive.is_read()) write_allocation();
     if (by_variance_ != was_by_variance) make_kernel();
   }
@@ -105,6 +107,11 @@ private:
     if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches, world_.halves) &&
         allocation_.is_due(batch))
       reallocate(batch);
+    if (std::exchange(forgets_, false)) { // not before: the moments are what a guide that is due is made of
+      guide_.forget();
+      moments_.fill_zero();
+      guide_moments_.fill_zero();
+    }
     // A batch that may be reallocated, of a number that is a power of 2, begins a slice.
     const std::int64_t reallocated = static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(batch) + 1)),
                        most = std::min<std::int64_t>(end - batch_, by_variance_ ? reallocated - batch : t.batches);
@@ -193,6 +200,8 @@ private:
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
   compute::Buffer<float> worth_; ///< of a meter's cells, see weigh_cells
+  std::vector<float> weights_;   ///< what is in worth_; empty: 1 everywhere
+  bool forgets_ = false;         ///< what was measured until now, when the next batch begins
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<shared::StoredPhoton> no_photons_{world_.context, "no photons", 0};
   compute::Buffer<int> no_table_{world_.context, "no receivers", 0};

@@ -180,7 +180,7 @@ void check_meter(const Meter& m, std::size_t index, const Scene& scene, const Wh
     check_up(m.zero, m.direction, child(pointer, "up"), where);
   } else {
     check_direction(m.normal, child(pointer, "normal"), where);
-    if (m.type == Meter::Type::plane) check_up(m.up, m.normal, child(pointer, "up"), where);
+    if (m.type == Meter::Type::plane && m.up) check_up(*m.up, m.normal, child(pointer, "up"), where);
   }
   const bool of_directions = m.type == Meter::Type::goniometer;
   if (is_intensity(m.unit) && !of_directions)

@@ -306,7 +306,7 @@ void describe(Fields& v, Meter& m) {
             {.unit = "degrees", .bounds = within(0.5, 30)});
   }
   if (m.type == Type::plane) {
-    v.field("up", "What is up in its map.", m.up, {.bounds = position_bounds});
+    v.field("up", "What is up in its map; null: +y, or -z where it is level.", m.up, {.bounds = position_bounds});
     v.field("size", "Its width, and its height along `up`.", m.size, {.unit = length_unit, .bounds = length_bounds});
   }
   if (m.type == Type::point)

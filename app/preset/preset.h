@@ -316,7 +316,7 @@ struct Meter {
   std::optional<Box> within;            ///< surface: only what is in here
   Vec3 position{0, 0, 0};               ///< plane: its centre; point; goniometer: where directions are counted from
   Vec3 normal{0, 1, 0};                 ///< plane, point: the side that light is measured on
-  Vec3 up{0, 0, -1};                    ///< plane: the top of its map (projected)
+  std::optional<Vec3> up;               ///< plane: the top of its map (projected); null: +y, or -z if it is level
   Vec3 direction{0, -1, 0};             ///< goniometer: gamma = 0
   Vec3 zero{0, 0, 1};                   ///< goniometer: the half-plane C = 0 (projected)
   double step_deg = 2.5;                ///< goniometer: between directions

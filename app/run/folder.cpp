@@ -71,8 +71,10 @@ std::vector<std::string> engine_files(const fs::path& folder) {
   if (!is_there(folder / "run.json")) return names;
   try {
     const auto run = nlohmann::json::parse(read_file(folder / "run.json"));
-    for (const auto& name : run.at("files"))
-      names.push_back(fs::path(name.get<std::string>()).filename().string()); // nothing outside the folder
+    for (const auto& entry : run.at("files")) {
+      const fs::path name = fs::path(entry.get<std::string>()).lexically_normal();
+      if (name.is_relative() && *name.begin() != "..") names.push_back(name.string()); // nothing outside the folder
+    }
   } catch (const nlohmann::json::exception&) {
     names.clear(); // written by something else
   }

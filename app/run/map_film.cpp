@@ -33,7 +33,9 @@ std::optional<std::string> MapFilm::write(const fs::path& folder, const fs::path
                                           const scene::MeterSurface& surface) const {
   double scale = 0;
   for (const Frame& frame : frames_) scale = std::max(scale, measure::colour_scale(frame.values));
-  fs::create_directories(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw failed(folder.string(), error.message(), "expected a folder that can be made");
   remove_frames(folder, 0);
   std::error_code ignored;
   fs::remove(video, ignored);
@@ -43,7 +45,8 @@ std::optional<std::string> MapFilm::write(const fs::path& folder, const fs::path
   });
   if (left_out_ > 0) return counted(left_out_, "hour") + " would need more than a GiB of memory, and have no frame";
   if (auto why_not = make_video(folder, static_cast<int>(frames_.size()), hours_a_second)) return why_not;
-  fs::rename(folder / "animation.mp4", video);
+  fs::rename(folder / "animation.mp4", video, error);
+  if (error) throw failed(video.string(), error.message(), "expected a file that can be written");
   return std::nullopt;
 }
 

@@ -55,9 +55,12 @@ public:
     return source ? source->spectrum(pixel) : nullptr;
   }
 
-  /// The meters begin anew in the other light.
+  /// The meters begin anew in the other light. What a camera sees is none of theirs.
   bool adopt(const preset::Preset& preset) override {
     if (!job_->adopt(preset)) return false;
+    preset::Preset measured = adopted_.value_or(prepared_.preset);
+    measured.scene.camera = preset.scene.camera;
+    if (measured == preset) return true;
     metering_.reset();
     readings_.reset();
     adopted_ = preset;

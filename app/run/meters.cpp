@@ -65,8 +65,9 @@ void check_meters(const Prepared& prepared) {
   const preset::Preset& preset = prepared.preset;
   require_meters(preset);
   const Location where = Location(preset.source) / "scene" / "meters";
+  const scene::Scene scene = lit_scene(prepared); // also what is refused beyond the visible alone
   for (std::size_t i = 0; i < preset.scene.meters.size(); ++i)
-    scene::make_meter(preset.scene.meters[i], prepared.loaded->scene, where / static_cast<int>(i));
+    scene::make_meter(preset.scene.meters[i], scene, where / static_cast<int>(i));
 }
 
 Metering::Metering(const Prepared& prepared, const mpi::RankContext& context, const std::string& only)
@@ -106,23 +107,23 @@ bool Metering::advance() {
   // one that is too small.
   next_ = (next_ + 1) % meters_.size();
   const auto cycles = static_cast<std::uint64_t>(meter.run->cycles());
-  const bool is_due =
-      !meter.reading || std::has_single_bit(cycles) || (cycles % 3 == 0 && std::has_single_bit(cycles / 3));
-  if (is_due) read(meter);
-  return is_due;
+  const bool is_due = std::has_single_bit(cycles) || (cycles % 3 == 0 && std::has_single_bit(cycles / 3));
+  if (!is_due && meter.reading) return false;
+  read(meter, is_due); // a resumed run reads once more, and goes on as the unbroken one
+  return true;
 }
 
-void Metering::read(MeterInHand& meter) {
+void Metering::read(MeterInHand& meter, bool steers) {
   meter.seconds = meter.run->work_seconds();
   meter.photons = meter.run->photons();
-  meter.reading =
-      meters::read(meter.meter, *meter.surface, prepared_.loaded->scene.metres_per_unit, meter.run->layers());
+  meter.reading = std::make_shared<const meters::Reading>(
+      meters::read(meter.meter, *meter.surface, prepared_.loaded->scene.metres_per_unit, meter.run->layers(steers)));
   const meters::Numbers& numbers = meter.reading->all().numbers(meters::quantity_of(meter.meter.unit));
   meter.history.push_back({meter.seconds, numbers.mean, numbers.peak});
 }
 
 bool Metering::all_read() const {
-  return std::ranges::all_of(meters_, [](const MeterInHand& meter) { return meter.reading.has_value(); });
+  return std::ranges::all_of(meters_, [](const MeterInHand& meter) { return meter.reading != nullptr; });
 }
 
 meters::Readings Metering::readings() const {
@@ -133,7 +134,7 @@ meters::Readings Metering::readings() const {
     shown.surface = meter.surface;
     shown.origin = meter.origin;
     shown.metres_per_unit = prepared_.loaded->scene.metres_per_unit;
-    if (meter.reading) shown.reading = std::make_shared<const meters::Reading>(*meter.reading);
+    shown.reading = meter.reading;
     shown.seconds = meter.seconds;
     shown.photons = meter.photons;
     shown.lost_share = meter.run->lost_share();

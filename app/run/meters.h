@@ -17,10 +17,10 @@ struct MeterInHand {
   glm::dvec3 origin{0};                               ///< preset coordinates of the scene's (0, 0, 0)
   photons::RunPlan plan;
   std::unique_ptr<photons::MeterRun> run;
-  std::optional<meters::Reading> reading;  ///< nothing before the first
-  double seconds = 0;                      ///< of work until the reading
-  std::uint64_t photons = 0;               ///< sent until then
-  std::vector<meters::HistoryRow> history; ///< of all readings
+  std::shared_ptr<const meters::Reading> reading; ///< nothing before the first
+  double seconds = 0;                             ///< of work until the reading
+  std::uint64_t photons = 0;                      ///< sent until then
+  std::vector<meters::HistoryRow> history;        ///< of all readings
   bool is_dark() const { return plan.layers == 0; }
   double relative_half_width() const {
     return is_dark() ? 0 : reading ? meters::relative_half_width(meter, *reading) : 1e9;
@@ -59,7 +59,7 @@ public:
   const Prepared& prepared() const { return prepared_; }
 
 private:
-  void read(MeterInHand& meter);
+  void read(MeterInHand& meter, bool steers);
 
   Prepared prepared_;
   optics::SpectralRange range_ = optics::SpectralRange::visible;

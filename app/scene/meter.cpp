@@ -173,8 +173,7 @@ void add_plane(MeterChart chart, const glm::dvec3& centre, double width, double 
 void make_plane(const preset::Meter& meter, const Scene& scene, const Location& where, Builder& builder) {
   const bool point = meter.type == preset::Meter::Type::point;
   const glm::dvec3 normal = glm::normalize(to_dvec3(meter.normal));
-  glm::dvec3 up = to_dvec3(meter.up);
-  if (point) up = usual_up(normal);
+  const glm::dvec3 up = !point && meter.up ? to_dvec3(*meter.up) : usual_up(normal);
   MeterChart chart;
   chart.right = glm::normalize(glm::cross(up, normal));
   chart.up = glm::cross(normal, chart.right);

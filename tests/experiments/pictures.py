@@ -219,6 +219,14 @@ def facade(s, name):
     s.keep(name, [folder / "street-highest.png"])
 
 
+def map_of(s, name, preset, meter, first=None):
+    """The map of a tour's meter. first: a preset whose luminaire's file it needs."""
+    for each in [first, preset] if first else [preset]:
+        time = ("--seconds", 0.1) if s.small else ("--until", 1)
+        s.call(s.program, "measure", each, *time, "-o", s.folder / "out" / each)
+    s.keep(name, [s.folder / "out" / preset / f"{meter}.png"])
+
+
 def gems(s, name):
     """The pictures of a report, not of a run."""
     folder = s.folder / "gems"
@@ -379,6 +387,8 @@ MAKERS = {
     "grazing-rainbow.png": grazing_rainbow,
     "meters-facade.png": meters_facade,
     "tours/facade.png": facade,
+    "tours/fire.png": partial(map_of, preset="ball", meter="paper"),
+    "tours/luminaire.png": partial(map_of, preset="desk", meter="desk", first="luminaire"),
     "gems.png": gems,
     "gems-table.jpg": gems_table,
     "inverse-glass.png": inverse_glass,

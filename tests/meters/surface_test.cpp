@@ -93,7 +93,7 @@ TEST(MeterSurface, APlaneAndAPointAreWhereTheySay) {
                     .name = "meter",
                     .position = {1, 2, 3},
                     .normal = {0, 0, 1},
-                    .up = {0, 1, 0},
+                    .up = preset::Vec3{0, 1, 0},
                     .size = {2, 1},
                     .cell = 0.5};
   const scene::Scene scene = scene::load_scene(preset);

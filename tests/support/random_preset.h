@@ -132,7 +132,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     } else if (preset::is_intensity(meter.unit))
       meter.unit = Meter::Unit::suns;
     if (meter.type != Meter::Type::surface && meter.type != Meter::Type::goniometer) meter.normal = {0.1, -1, 1.0 / 3};
-    if (meter.type == Meter::Type::plane) meter.up = {0, 0.2, 1};
+    if (meter.type == Meter::Type::plane) meter.up = Vec3{0, 0.2, 1};
     if (meter.facing) meter.facing = {0.1, 1.0 / 3, 1};
     if (meter.within) meter.within = Box{{-1, -2, -3}, {1, 1.0 / 3, 1}};
     if (meter.threshold) meter.threshold = meter.type == Meter::Type::goniometer ? "20 cd" : "2500 W/m^2";

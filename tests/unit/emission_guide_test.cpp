@@ -76,6 +76,9 @@ TEST(EmissionGuide, ForgetsWhatItIsTold) {
   const std::vector<double> chance = chances(guide);
   guide.forget();
   EXPECT_EQ(chances(guide), chance) << "until there is more";
+  guide.learn(std::vector<std::int64_t>(guide_cells, 0), std::vector<double>{1e6}, 1);
+  EXPECT_EQ(chances(guide), chance) << "and nothing is no more";
+  guide.forget();
   guide.learn(moments_of(second, chance, 1e6, 1e-14), std::vector<double>{1e6}, 1);
   for (const double value : chances(guide)) EXPECT_NEAR(value, even, 0.05 * even);
 }

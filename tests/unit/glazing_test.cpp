@@ -162,13 +162,16 @@ TEST(Glazing, AFilmIsAirysSum) {
     }
 }
 
-// Behind a micrometre of silver nothing is seen.
+// Behind a micrometre of silver nothing is seen, nor behind what exp() of would be no number.
 TEST(Glazing, ThickSilverIsAMirror) {
   optics::GlassPane pane = glass(1.5);
-  pane.front = {film(0.06, 3.6, 1000)};
-  for (const double angle_deg : {0.0, 60.0, 85.0})
-    EXPECT_NEAR(parts({pane}, angle_deg).front,
-                optics::conductor_reflectance(std::cos(angle_deg * std::numbers::pi / 180), 1, {0.06, 3.6}), 1e-9);
+  for (const double nm : {1000.0, 20000.0})
+    for (const double angle_deg : {0.0, 60.0, 85.0}) {
+      pane.front = {film(0.06, 3.6, nm)};
+      EXPECT_NEAR(parts({pane}, angle_deg).front,
+                  optics::conductor_reflectance(std::cos(angle_deg * std::numbers::pi / 180), 1, {0.06, 3.6}), 1e-9);
+      EXPECT_NEAR(parts({pane}, angle_deg).passes, 0, 1e-9);
+    }
 }
 
 // A pane that is known by what it does straight on is, without a coating, the pane that does that.

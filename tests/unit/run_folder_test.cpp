@@ -43,6 +43,11 @@ TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes) {
   EXPECT_EQ(run->progress.units.works, "facets");
 }
 
+TEST_F(RunFolder, ItsFilesAreInItAlone) {
+  with_run_json(R"({"files":["image.exr","meters/floor.csv","../others.csv","meters/../../others.csv","/etc/passwd"]})");
+  EXPECT_THAT(run::engine_files(folder), ElementsAre("image.exr", "meters/floor.csv"));
+}
+
 TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew) {
   fs::create_directory(folder / "of the user");
   for (const char* name : {"of the user", "new"}) run::ClaimedFolder(folder / name);

@@ -49,7 +49,10 @@ std::vector<Message> errors_or_notes(const std::vector<Message>& messages, bool 
 }
 
 bool looks_at_meters(const Context& context) {
-  if (!context.view_state.view_settings.meter.empty()) return true;
+  const std::string& on_picture = context.view_state.view_settings.meter;
+  const preset::Preset* preset = context.preset();
+  const auto is_on_picture = [&](const preset::Meter& meter) { return meter.name == on_picture; };
+  if (preset && std::ranges::any_of(preset->scene.meters, is_on_picture)) return true;
   const auto panel = std::ranges::find(panel_table(), "meters", &PanelEntry::name);
   return panel != panel_table().end() && is_seen(*panel);
 }

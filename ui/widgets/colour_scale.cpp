@@ -61,7 +61,7 @@ void draw_linear_scale(const ImVec2& area, const ImVec2& size, const std::string
   std::vector<ScaleMark> marks;
   for (int i = 0; i < numbers; ++i) {
     const double position = static_cast<double>(i) / (numbers - 1);
-    marks.emplace_back(position, fmt::format("{:.3g}", high * (is_signed ? 2 * position - 1 : position)));
+    marks.emplace_back(position, fmt::format("{:.4g}", high * (is_signed ? 2 * position - 1 : position)));
   }
   draw_scale(area, size, title, marks,
              [&](float position) { return measure::map_colour(static_cast<double>(position), is_signed); });

@@ -200,6 +200,8 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
     deviation = blurred(deviation);
     const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
     std::vector<double> chance(cells, 1.0 / cells);
+    if (!(total > 0) && batches > 0) // nothing was seen of the light: nothing is learned
+      std::copy_n(chance_.begin() + static_cast<std::ptrdiff_t>(first), cells, chance.begin());
     if (total > 0)
       for (std::size_t c = 0; c < cells; ++c) chance[c] = even_part / cells + (1 - even_part) * deviation[c] / total;
     std::copy(chance.begin(), chance.end(), chance_.begin() + static_cast<std::ptrdiff_t>(first));
