@@ -18,7 +18,8 @@ constexpr date::sys_days summer_of_last_year = date::year{2037} / 6 / 21;
 const date::tzdb& zones() {
   try {
     const date::tzdb& all = date::get_tzdb(); // read once
-    static const bool has_rules = date::locate_zone(std::string("Europe/London"))->get_info(summer_of_last_year).offset.count() > 0;
+    static const bool has_rules =
+        date::locate_zone(std::string("Europe/London"))->get_info(summer_of_last_year).offset.count() > 0;
     if (has_rules) return all;
   } catch (const std::runtime_error& error) {
     throw failed("the system's time zones", error.what(), "expected those of the package tzdata");

@@ -78,7 +78,7 @@ void print_text(const MeterInHand& meter, const preset::Preset& preset, optics::
     const Numbers& shown = reading.all().numbers(meters::quantity_of(meter.meter.unit));
     const glm::dvec3 p = meter.surface->centres[shown.peak_cell] + meter.origin;
     fmt::print("  peak at ({:.4g}, {:.4g}, {:.4g}) {}; uniformity (least / mean) {}\n", p.x, p.y, p.z,
-               preset::word(preset.unit), text_of(lux.uniformity));
+               preset::word(preset.unit), text_of(shown.uniformity));
   }
   if (reading.share_above)
     fmt::print("  above {}: {} of the {}\n", *meter.meter.threshold, percent_of(*reading.share_above),
@@ -111,9 +111,6 @@ void drive(const MeasureOptions& options, run::Metering& metering, const std::st
                seconds = options.seconds.value_or(usual);
   LiveLine line;
   const bool shows = progress_style(options.json) == ProgressStyle::live;
-  const auto all_read = [&] {
-    return std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading != nullptr; });
-  };
   while (!interrupted.stop_requested()) {
     if (metering.advance() && shows) {
       std::string text;
@@ -122,11 +119,12 @@ void drive(const MeasureOptions& options, run::Metering& metering, const std::st
                             100 * std::min(meter.relative_half_width(), 1.0));
       line.show(fmt::format("{:.1f} s: {}", metering.work_seconds(), text));
     }
-    if (!all_read()) continue;
+    if (!metering.all_read()) continue;
     const bool is_enough = !(options.seconds && !options.until_percent) && metering.is_enough(percent);
     if (is_enough || metering.work_seconds() >= seconds) return;
   }
-  if (!all_read()) throw Error(ErrorKind::interrupted, options.preset, "interrupted before there was anything to tell");
+  if (!metering.all_read())
+    throw Error(ErrorKind::interrupted, options.preset, "interrupted before there was anything to tell");
 }
 
 void measure(const MeasureOptions& options) {

@@ -214,8 +214,11 @@ void report(const HoursOptions& options, const run::Hours& hours, const std::vec
   if (options.folder.empty()) return;
   write_file_whole(options.folder / "hours.json", object.dump(2) + "\n"); // first: films are large
   for (const Series& series : by_meter) {
-    if (!series.highest) continue;
     const std::string stem = preset::file_stem(series.meter);
+    std::error_code ignored;
+    for (const char* name : {"-hours.csv", "-cells.csv", "-highest.png", "-hours.mp4", "-hours"}) // an older series'
+      fs::remove_all(options.folder / (stem + name), ignored);
+    if (!series.highest) continue;
     write_file_whole(options.folder / (stem + "-hours.csv"), hours_csv(series));
     write_file_whole(options.folder / (stem + "-cells.csv"), cells_csv(series));
     const measure::Bitmap map = meters::false_colours(series.meter, series.surface, *series.highest);
@@ -233,7 +236,7 @@ bool measure_hour(const HoursOptions& options, run::Metering& metering, const st
                seconds = options.seconds.value_or(usual_seconds) * static_cast<double>(metering.meters().size());
   while (!interrupted.stop_requested()) {
     metering.advance();
-    if (!std::ranges::all_of(metering.meters(), [](const MeterInHand& m) { return m.reading != nullptr; })) continue;
+    if (!metering.all_read()) continue;
     const bool is_enough = std::ranges::all_of(
         metering.meters(), [&](const MeterInHand& m) { return m.relative_half_width() <= percent / 100; });
     if (is_enough || metering.work_seconds() >= seconds) return true;

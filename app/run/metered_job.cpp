@@ -58,14 +58,14 @@ public:
   /// The meters begin anew in the other light. What a camera sees is none of theirs.
   bool adopt(const preset::Preset& preset) override {
     if (!job_->adopt(preset)) return false;
+    seconds_before_ = job_->progress().work_seconds; // an engine may count from 0 again
+    meter_seconds_ = 0;
     preset::Preset measured = adopted_.value_or(prepared_.preset);
     measured.scene.camera = preset.scene.camera;
     if (measured == preset) return true;
     metering_.reset();
     readings_.reset();
     adopted_ = preset;
-    seconds_before_ = job_->progress().work_seconds;
-    meter_seconds_ = 0;
     return true;
   }
 

@@ -55,8 +55,11 @@ void add_meter(C c) {
   const auto object = object_to_measure(c);
   c.edit("Add meter", [&](preset::Preset& p) {
     if (object) {
-      std::string& name = p.scene.objects[*object].name;
-      if (name.empty()) name = fmt::format("object {}", *object + 1);
+      std::vector<preset::Object>& objects = p.scene.objects;
+      std::string& name = objects[*object].name;
+      const auto count = [&] { return std::ranges::count(objects, name, &preset::Object::name); };
+      for (std::size_t number = *object + 1; name.empty() || count() > 1; ++number) // a meter goes by the name
+        name = fmt::format("object {}", number);
       meter.type = preset::Meter::Type::surface;
       meter.object = name;
     } else

@@ -145,7 +145,7 @@ void MetersPanel::draw_numbers() {
     number_row("uniformity (least / mean)", text_of(numbers.uniformity));
   }
   number_row(preset::is_luminous(unit_now_) ? "total, lm" : "total, W", text_of(numbers.total));
-  if (shown_->reading->share_above)
+  if (shown_->reading->share_above && layer().name == "all")
     number_row(("above " + *shown_->meter.threshold).c_str(), percent_of(*shown_->reading->share_above));
   ImGui::EndTable();
   ImGui::TextDisabled("%s", fmt::format("{} cells, {:.3g} million photons, {:.1f} s of work; 95 % intervals",
@@ -241,7 +241,8 @@ void MetersPanel::draw_history() {
   for (const std::vector<Interval>& intervals : {means, peaks})
     for (const Interval& interval : intervals) most = std::max(most, interval.high / preset::size_of(unit));
   const std::string label = fmt::format("{}, all light", preset::word(unit));
-  set_up_fixed_axis(ImAxis_X1, "seconds of the meter's work", 0, 1.05 * seconds.back(), ImPlotAxisFlags_None);
+  set_up_fixed_axis(ImAxis_X1, "seconds of the meter's work", 0, std::max(1.05 * seconds.back(), 1e-3),
+                    ImPlotAxisFlags_None);
   set_up_fixed_axis(ImAxis_Y1, label.c_str(), 0, most > 0 ? 1.1 * most : 1, ImPlotAxisFlags_None);
   ImPlot::SetupLegend(ImPlotLocation_NorthEast);
   plot_interval("mean", colour::accent, seconds, means, preset::size_of(unit));
