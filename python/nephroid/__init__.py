@@ -314,7 +314,8 @@ class Run:
     def meters(self) -> dict[str, dict[str, Any]]:
         """What the preset's meters show so far, by name: what measure.json has, and "cells": ["W/m^2"]["value"], "low"
         and "high", a value a cell, ["lx"] alike, and their ["place"]. Empty before the first reading."""
-        return {name: {**_json.loads(text), "cells": cells} for name, (text, cells) in self._snapshot().meters().items()}
+        meters = self._snapshot().meters()
+        return {name: {**_json.loads(text), "cells": cells} for name, (text, cells) in meters.items()}
 
     def phases(self) -> dict[str, float]:
         """Seconds by kind of work."""

@@ -377,6 +377,7 @@ WINDOW = [
     "environment",
     "handles",
     "materials",
+    "meters",
     "parameters",
     "spectra-relit",
     "spectra",
