@@ -44,7 +44,8 @@ TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes) {
 }
 
 TEST_F(RunFolder, ItsFilesAreInItAlone) {
-  with_run_json(R"({"files":["image.exr","meters/floor.csv","../others.csv","meters/../../others.csv","/etc/passwd"]})");
+  with_run_json(
+      R"({"files":["image.exr","meters/floor.csv","../others.csv","meters/../../others.csv","/etc/passwd"]})");
   EXPECT_THAT(run::engine_files(folder), ElementsAre("image.exr", "meters/floor.csv"));
 }
 
