@@ -3,6 +3,7 @@
 #include "base/interrupts.h"
 #include "base/json_output.h"
 #include "base/lower_case.h"
+#include "base/numbers.h"
 #include "cli/progress.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
@@ -54,7 +55,8 @@ preset::Preset preset_of_mesh(const GemOptions& options) {
 
 preset::Preset read_stone_file(const GemOptions& options, const fs::path& temporary) {
   const fs::path file = options.file;
-  const std::string ending = lower_case(file.extension().string());
+  const bool packed = lower_case(file.extension().string()) == ".gz";
+  const std::string ending = lower_case((packed ? file.stem() : file).extension().string());
   if (ending == ".obj" || ending == ".ply" || ending == ".stl") return preset_of_mesh(options);
   if (ending != ".asc" && ending != ".gltf" && ending != ".glb" && ending != ".xml" && ending != ".pbrt")
     return preset::read_preset(options.file, options.overrides);
@@ -66,17 +68,10 @@ preset::Preset read_stone_file(const GemOptions& options, const fs::path& tempor
 /// A file that stands in the current folder, or a name that the preset finds; or an index of refraction.
 preset::Dispersion dispersion_of(const std::string& material) {
   preset::Dispersion dispersion;
-  std::size_t end = 0;
-  double n = 0;
-  try {
-    n = std::stod(material, &end);
-  } catch (const std::logic_error&) {
-    end = 0;
-  }
-  if (end == material.size()) {
-    if (!(n >= 1 && n <= 10))
+  if (const auto n = typed_number<double>(material)) {
+    if (!(*n >= 1 && *n <= 10))
       throw bad_input("--material", fmt::format("an index of {}", material), "expected 1 to 10");
-    dispersion.n = n;
+    dispersion.n = *n;
     return dispersion;
   }
   dispersion.type = preset::Dispersion::Type::file;
@@ -183,7 +178,7 @@ void report_gem(const GemOptions& options) {
   preset::at_origins(preset, [&] {
     if (!options.material.empty())
       for (auto& [name, material] : preset.scene.materials)
-        if (preset::is_refractive(material.type)) material.dispersion = dispersion_of(options.material);
+        if (preset::is_body(material)) material.dispersion = dispersion_of(options.material);
     const Stone stone = gems::load_stone(preset, options.object);
     for (const std::string& warning : stone.scene.warnings) fmt::print(stderr, "note: {}\n", warning);
     const compute::Context context = device_opener(options.device)();
@@ -234,7 +229,7 @@ void add_gem(CLI::App& program, Session&) {
   verb.option("--head", options->light.head_deg,
               {.type = "DEG", .says = "Half angle of the head's shadow (default 20)", .from = 0, .to = 90});
   verb.option("--rays", options->light.rays,
-              {.type = "N", .says = "Rays from the eye, of each view (default 100000)", .from = 1000, .to = 1e8});
+              {.type = "N", .says = "Rays from the eye, of each tilt (default 100000)", .from = 32768, .to = 1e8});
   verb.option("--seed", options->light.seed, {.type = "N", .says = "Of the random numbers (default 1)", .from = 0});
   verb.device(options->device.selector, options->device.kernels);
   verb.flag("--json", options->json, "One JSON object instead of text");

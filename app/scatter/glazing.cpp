@@ -120,6 +120,13 @@ optics::MeasuredPane measured_pane(const preset::Pane& from, const Loading& load
     pane.back = loading.spectrum(from.back_reflectance, "back_reflectance");
   }
   if (from.flipped) std::swap(pane.front, pane.back);
+  constexpr double alike = 0.03; // of two measurements of one glass
+  for (std::size_t w = 0; w < pane.front.size(); ++w)
+    if (!pane.coated && std::abs(pane.front[w] - pane.back[w]) > alike)
+      throw bad_input(loading.where / "coated",
+                      fmt::format("is false, and the faces reflect {:.3g} and {:.3g} at {:.0f} nm", pane.front[w],
+                                  pane.back[w], optics::cells(loading.range).nm[w]),
+                      "expected faces that are alike", "leave it out: a face has a coating");
   for (std::size_t w = 0; w < pane.front.size(); ++w) {
     double &t = pane.transmittance[w], r = std::max(pane.front[w], pane.back[w]);
     if (t + r > most_sum)

@@ -103,7 +103,7 @@ std::optional<std::string> covered(const MeterSurface& meter, const Scene& scene
   std::map<std::uint32_t, std::size_t> count_of; // [object]
   for (std::size_t probe = 0; probe < probes; ++probe) {
     const std::size_t cell = probe * meter.count() / probes;
-    const double reach = 0.1 * std::sqrt(meter.areas[cell]);
+    const double reach = std::sqrt(meter.areas[cell]);
     const auto hit = closest_hit(bvh, meter.centres[cell], meter.normals[cell], is_opaque, reach);
     if (hit) ++count_of[scene.object_of_primitive[hit->primitive]];
   }

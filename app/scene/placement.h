@@ -20,7 +20,7 @@ std::vector<std::size_t> first_copies(const preset::Scene& scene);
 /// camera is not.
 std::vector<std::string> hidden_lamps(const Scene& scene);
 
-/// A sentence on a meter in the air that has what lets no light through right before it, closer than a tenth of a cell:
+/// A sentence on a meter in the air that has what lets no light through right before it, closer than a cell is wide:
 /// it lies just behind a surface, or looks at one.
 std::optional<std::string> covered(const MeterSurface& meter, const Scene& scene, const Bvh& bvh);
 

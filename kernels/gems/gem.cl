@@ -48,7 +48,6 @@ static inline void gem_leave(GemLight* light, const GemRay* ray, float3 eye, flo
   light->sums[GEM_SPREADS] += weight;
 }
 
-// cosine: of the direction before, with the normal against it.
 static inline float3 gem_bounce(float3 direction, float3 normal) {
   return direction - 2.0f * dot(direction, normal) * normal;
 }
@@ -119,8 +118,9 @@ COMPILED_ONCE GemLight gem_light_of(const Geometry* geometry, float3 position, f
       ray = refracted;
     }
   }
-  light.sums[GEM_WINDOW] = through > 0.5f ? 1.0f : 0.0f;
-  light.sums[GEM_DARK] = light.sums[GEM_ISO] - light.sums[GEM_HEAD] > 0.5f ? 1.0f : 0.0f;
+  const float half_of_it = 0.5f * (light.sums[GEM_ISO] + light.sums[GEM_BELOW]);
+  light.sums[GEM_WINDOW] = through > half_of_it ? 1.0f : 0.0f;
+  light.sums[GEM_DARK] = light.sums[GEM_ISO] - light.sums[GEM_HEAD] > half_of_it ? 1.0f : 0.0f;
   return light;
 }
 

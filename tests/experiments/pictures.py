@@ -231,7 +231,7 @@ def gems(s, name):
     """The pictures of a report, not of a run."""
     folder = s.folder / "gems"
     stone = ROOT / "tests" / "experiments" / "gems" / "round-brilliant.asc"
-    rays = 1000 if s.small else 600000
+    rays = 40000 if s.small else 600000
     s.call(s.program, "gem", stone, "--material", "materials/diamond-Peter.yml", "--rays", rays, "-o", folder)
     s.keep(name, [folder / f"{picture}.png" for picture in ("iso", "head", "colour", "fire")], 4)
 

@@ -26,7 +26,7 @@ double reflectance(double angle, double n_i, double n_t) {
 class Gems : public test::ProgramTest {
 protected:
   json report(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"gem", "--json", "--rays", "20000"};
+    std::vector<std::string> arguments{"gem", "--json", "--rays", "40000"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const test::Ended ended = run(arguments);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -116,6 +116,7 @@ TEST_F(Gems, APlateThatAbsorbsKeepsLessLight) {
                again = 1 / (1 - std::pow(reflected * left, 2));
   EXPECT_NEAR(value(r["face_up"]["iso"]), reflected + passed * reflected * left * left * again, 2e-4);
   EXPECT_NEAR(value(r["below_share"]), passed * left * again, 5e-4);
+  EXPECT_EQ(value(r["window_share"]), 1) << "of the light that is left";
 }
 
 // What goes in comes out; a round stone is the same from four sides.
