@@ -51,7 +51,7 @@ struct GemLight {
   std::optional<meters::Interval> fire_deg; ///< empty where the material has no dispersion
   meters::Interval scintillation;           ///< mean change of HEAD by a degree of tilt
   double area_mm2 = 0;                      ///< of the outline
-  double lost = 0;                          ///< share of the light that met too many surfaces: the largest, tilts included
+  double lost = 0;                          ///< share of the light that met too many surfaces, at most
   std::vector<Tilt> tilts;                  ///< -30 to 30 degrees about x, then about z
   GemPictures pictures;
 };
