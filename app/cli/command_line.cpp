@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <sstream>
 #include <system_error>
 
 namespace nephroid::cli {
@@ -147,7 +148,10 @@ int parse_and_run(int argc, const char* const* argv, const Window& window) {
   try {
     program.parse(std::move(words));
   } catch (const CLI::Success& request) { // --help and --version
-    return program.exit(request);
+    std::ostringstream text;
+    const int exit_code = program.exit(request, text, text);
+    fmt::print("{}", text.str()); // says why where it cannot be written
+    return exit_code;
   } catch (const CLI::ParseError& error) {
     throw usage_error(program, error);
   }

@@ -177,7 +177,7 @@ void check_meter(const Meter& m, std::size_t index, const Scene& scene, const Wh
         throw bad_input(at("within"), "has no volume: low is not below high", "expected low below high on each axis");
   } else if (m.type == Meter::Type::goniometer) {
     check_direction(m.direction, child(pointer, "direction"), where);
-    check_up(m.zero, m.direction, child(pointer, "up"), where);
+    if (m.up) check_up(*m.up, m.direction, child(pointer, "up"), where);
   } else {
     check_direction(m.normal, child(pointer, "normal"), where);
     if (m.type == Meter::Type::plane && m.up) check_up(*m.up, m.normal, child(pointer, "up"), where);

@@ -301,7 +301,8 @@ void describe(Fields& v, Meter& m) {
   if (m.type == Type::goniometer) {
     v.field("direction", "Where gamma = 0, straight down in a luminaire's file, is.", m.direction,
             {.bounds = position_bounds});
-    v.field("up", "Where the plane C = 0 is, as far as the direction allows.", m.zero, {.bounds = position_bounds});
+    v.field("up", "Where the plane C = 0 is, as far as the direction allows; null: +z.", m.up,
+            {.bounds = position_bounds});
     v.field("step_deg", "About the angle between its directions.", m.step_deg,
             {.unit = "degrees", .bounds = within(0.5, 30)});
   }

@@ -311,15 +311,14 @@ struct Meter {
   enum class Unit { watts, kilowatts, lux, kilolux, suns, candela, watts_per_steradian };
   Type type = Type::plane;
   std::string name;
-  std::string object;                   ///< surface: the name of the object, whose front it measures
-  std::optional<Vec3> facing;           ///< surface: only what faces this way, to 45 degrees
-  std::optional<Box> within;            ///< surface: only what is in here
-  Vec3 position{0, 0, 0};               ///< plane: its centre; point; goniometer: where directions are counted from
-  Vec3 normal{0, 1, 0};                 ///< plane, point: the side that light is measured on
-  std::optional<Vec3> up;               ///< plane: the top of its map (projected); null: +y, or -z if it is level
-  Vec3 direction{0, -1, 0};             ///< goniometer: gamma = 0
-  Vec3 zero{0, 0, 1};                   ///< goniometer: the half-plane C = 0 (projected)
-  double step_deg = 2.5;                ///< goniometer: between directions
+  std::string object;         ///< surface: the name of the object, whose front it measures
+  std::optional<Vec3> facing; ///< surface: only what faces this way, to 45 degrees
+  std::optional<Box> within;  ///< surface: only what is in here
+  Vec3 position{0, 0, 0};     ///< plane: its centre; point; goniometer: where directions are counted from
+  Vec3 normal{0, 1, 0};       ///< plane, point: the side that light is measured on
+  std::optional<Vec3> up;     ///< plane: the top of its map, null: +y, or -z if level; goniometer: C = 0, null: +z
+  Vec3 direction{0, -1, 0};   ///< goniometer: gamma = 0
+  double step_deg = 2.5;      ///< goniometer: between directions
   std::array<double, 2> size{1, 1};     ///< plane: its width and its height along `up`
   double diameter = 0.01;               ///< point: the edge of a square with the area of the meter's window
   std::optional<double> cell;           ///< surface, plane: the edge of a cell; else a 64th of the longest edge

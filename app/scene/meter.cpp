@@ -213,7 +213,7 @@ void make_goniometer(const preset::Meter& meter, const Scene& scene, const Locat
   surface.middle = middle;
   surface.rounding = 2 / far;
   const glm::dvec3 down = glm::normalize(to_dvec3(meter.direction)),
-                   zero = perpendicular_up(meter.zero, down, where / "up");
+                   zero = perpendicular_up(meter.up.value_or(preset::Vec3{0, 0, 1}), down, where / "up");
   surface.directions = {zero, glm::cross(zero, down), down};
   surface.steradians.assign(surface.count(), 0);
   for (std::size_t cell = 0; cell < surface.count(); ++cell)

@@ -127,7 +127,7 @@ inline preset::Preset random_preset(std::uint64_t seed) {
     Meter& meter = p.scene.meters[i];
     meter.name = fmt::format("meter {}", i);
     if (meter.type == Meter::Type::goniometer) {
-      meter.direction = {0.1, -1, 1.0 / 3}, meter.zero = {0, 0.2, 1};
+      meter.direction = {0.1, -1, 1.0 / 3}, meter.up = Vec3{0, 0.2, 1};
       meter.unit = Meter::Unit::watts_per_steradian;
     } else if (preset::is_intensity(meter.unit))
       meter.unit = Meter::Unit::suns;
