@@ -2,7 +2,6 @@
 // `nephroid gem`: what a cutter asks of a stone: light return by tilt, windows, fire and scintillation.
 #include "base/interrupts.h"
 #include "base/json_output.h"
-#include "base/lower_case.h"
 #include "base/numbers.h"
 #include "cli/progress.h"
 #include "cli/run_target.h"
@@ -55,8 +54,7 @@ preset::Preset preset_of_mesh(const GemOptions& options) {
 
 preset::Preset read_stone_file(const GemOptions& options, const fs::path& temporary) {
   const fs::path file = options.file;
-  const bool packed = lower_case(file.extension().string()) == ".gz";
-  const std::string ending = lower_case((packed ? file.stem() : file).extension().string());
+  const std::string ending = formats::ending_of(file);
   if (ending == ".obj" || ending == ".ply" || ending == ".stl") return preset_of_mesh(options);
   if (ending != ".asc" && ending != ".gltf" && ending != ".glb" && ending != ".xml" && ending != ".pbrt")
     return preset::read_preset(options.file, options.overrides);

@@ -10,6 +10,7 @@
 #include "meters/intervals.h"
 #include "meters/map.h"
 #include "preset/choices.h"
+#include "run/animation.h"
 #include "run/hours.h"
 #include "run/map_film.h"
 #include "run/meters.h"
@@ -146,8 +147,11 @@ void print_text(const Series& series, const run::Hours& hours, optics::SpectralR
                100 * series.lost_share);
   if (series.threshold) {
     const Interval above = hours_above(series.lines, *series.threshold, hours.weight_h);
-    fmt::print("  above {}: {:.0f} h ({:.0f} to {:.0f})\n", *series.meter.threshold, above.value, above.low,
-               above.high);
+    fmt::print("  above {}: {:.0f} h ({:.0f} to {:.0f}){}\n", *series.meter.threshold, above.value, above.low,
+               above.high,
+               hours.weight_h == 1 ? ""
+                                   : fmt::format("; {} were measured, each for {:.3g}",
+                                                 counted(series.lines.size(), "hour"), hours.weight_h));
   } else if (series.meter.threshold)
     fmt::print("  above {}: not counted, for the meter's unit is {}\n", *series.meter.threshold,
                preset::word(preset::unit_of(series.meter)));
@@ -216,8 +220,9 @@ void report(const HoursOptions& options, const run::Hours& hours, const std::vec
   for (const Series& series : by_meter) {
     const std::string stem = preset::file_stem(series.meter);
     std::error_code ignored;
+    run::remove_frames(options.folder / (stem + "-hours"), 0);
     for (const char* name : {"-hours.csv", "-cells.csv", "-highest.png", "-hours.mp4", "-hours"}) // an older series'
-      fs::remove_all(options.folder / (stem + name), ignored);
+      fs::remove(options.folder / (stem + name), ignored);
     if (!series.highest) continue;
     write_file_whole(options.folder / (stem + "-hours.csv"), hours_csv(series));
     write_file_whole(options.folder / (stem + "-cells.csv"), cells_csv(series));

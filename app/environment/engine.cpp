@@ -34,7 +34,7 @@ constexpr const char* new_scene = R"({
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .state_version = 15,
+    .state_version = 16,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
         -> std::unique_ptr<plan::Plan> { return std::make_unique<EnvironmentPlan>(make_plan(preset, scene, bvh)); },
     .job =

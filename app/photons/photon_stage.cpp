@@ -38,7 +38,7 @@ public:
         guide_moments_(world.zeroed("variance of each direction",
                                     by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
         guide_table_(world.context, "guide of directions", guide_.table()),
-        worth_(world.context, "worth of cells", std::vector<float>(world.tables.meter ? world.pixels.count : 0, 1.0f)),
+        weights_(world.tables.meter ? world.pixels.count : 0, 1.0f), worth_(world.context, "worth of cells", weights_),
         film_(world.zeroed("film caustic", world.film_size())) {
     make_kernel();
   }
@@ -93,7 +93,7 @@ public:
     archive.buffer(moments_);
     archive.buffer(guide_moments_);
     archive.value(forgets_);
-    archive.list(weights_);
+    archive.items(weights_);
     if (archive.is_read() && !weights_.empty()) worth_.write(weights_);
     if (archive.is_read()) write_allocation();
     if (by_variance_ != was_by_variance) make_kernel();
@@ -199,8 +199,8 @@ private:
   compute::Buffer<std::int64_t> moments_;       ///< [emitter], see NeymanAllocation::reallocate
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
+  std::vector<float> weights_;   ///< what is in worth_
   compute::Buffer<float> worth_; ///< of a meter's cells, see weigh_cells
-  std::vector<float> weights_;   ///< what is in worth_; empty: 1 everywhere
   bool forgets_ = false;         ///< what was measured until now, when the next batch begins
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<shared::StoredPhoton> no_photons_{world_.context, "no photons", 0};

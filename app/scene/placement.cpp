@@ -17,6 +17,11 @@ namespace {
 /// Whether a place is inside of a larger mesh takes too long for a note.
 constexpr std::uint32_t most_looked_through = 200'000;
 
+std::string name_of(const Scene& scene, std::size_t object) {
+  const std::string& name = scene.objects[object].name;
+  return name.empty() ? fmt::format("object {}", object) : fmt::format("object '{}'", name);
+}
+
 /// The square of the distance from a point to a triangle (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
 double distance2(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const auto to_edge = [&](const glm::dvec3& from, const glm::dvec3& to) {
@@ -82,8 +87,7 @@ std::vector<std::string> hidden_lamps(const Scene& scene) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       const Object& object = scene.objects[i];
       if (glm::distance(p, glm::dvec3(object.bounds.centre)) > object.bounds.radius + tolerance) continue;
-      const std::string name =
-          object.name.empty() ? fmt::format("object {}", i) : fmt::format("object '{}'", object.name);
+      const std::string name = name_of(scene, i);
       if (is_in_surface(scene, object, p, tolerance))
         lines.push_back(fmt::format("scene.lights.{} lies in the surface of {}; move it out", l, name));
       else if (!is_refractive(material_of(scene, object).type) && object.triangle_count <= most_looked_through &&
@@ -109,9 +113,9 @@ std::optional<std::string> covered(const MeterSurface& meter, const Scene& scene
   }
   for (const auto& [object, count] : count_of)
     if (2 * count > probes)
-      return fmt::format("the meter '{}' looks at '{}' from close by, which covers it: move it to the other side, or "
+      return fmt::format("the meter '{}' looks at {} from close by, which covers it: move it to the other side, or "
                          "turn its normal",
-                         meter.name, scene.objects[object].name);
+                         meter.name, name_of(scene, object));
   return {};
 }
 

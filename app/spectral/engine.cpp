@@ -70,7 +70,7 @@ constexpr const char* new_scene = R"({
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .state_version = 12,
+    .state_version = 13,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
         -> std::unique_ptr<plan::Plan> { return std::make_unique<photons::RunPlan>(make_plan(preset, scene, bvh)); },
     .job = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,

@@ -70,6 +70,12 @@ TEST_F(Gems, APlateReflectsTwice) {
   }
 }
 
+// A head of no size hides nothing, neither what a plate mirrors straight back.
+TEST_F(Gems, AHeadOfNoSizeIsNone) {
+  const json r = report_of(stone_of(1.54, sides + table + "a -0.0 1.0 96\n"), {"--head", "0"});
+  EXPECT_EQ(value(r["face_up"]["head"]), value(r["face_up"]["iso"]));
+}
+
 // A roof of 90 degrees sends all light back to where it came from, by total reflection.
 TEST_F(Gems, ARoofSendsAllBackToTheHead) {
   const json r = report_of(stone_of(1.6, sides + table + "a -45.0 0.8 96 48\n"));

@@ -112,6 +112,37 @@ TEST(MeteredJob, AnotherLightIsMeasuredAnew) {
   EXPECT_NEAR(watts(finished(*job)).mean.value, 3 * once, 0.3 * once);
 }
 
+/// A job that takes on every preset, as engine 2 does where the camera moves.
+class Adopting final : public job::Job {
+public:
+  explicit Adopting(std::unique_ptr<job::Job> job) : job_(std::move(job)) {}
+  void advance() override { job_->advance(); }
+  bool finished() const override { return job_->finished(); }
+  job::Progress progress() const override { return job_->progress(); }
+  job::Snapshot snapshot() override { return job_->snapshot(); }
+  void save(ByteSink& to) override { job_->save(to); }
+  void load(ByteSource& from) override { job_->load(from); }
+  bool adopt(const preset::Preset&) override { return true; }
+
+private:
+  std::unique_ptr<job::Job> job_;
+};
+
+TEST(MeteredJob, WhereTheCameraMovesMetersKeepWhatTheyHave) {
+  preset::Preset p = room();
+  const run::Prepared prepared = run::prepare(p);
+  const auto job = run::metered(std::make_unique<Adopting>(run::make_job(prepared, {shared_context()})), prepared,
+                                {shared_context()}, nullptr);
+  finished(*job);
+  const auto before = job->snapshot().meters;
+  p.scene.camera.position = {-0.9, 0.5, 0.9};
+  ASSERT_TRUE(job->adopt(p));
+  EXPECT_EQ(job->snapshot().meters, before);
+  p.scene.lights[0].power_w = 3;
+  ASSERT_TRUE(job->adopt(p));
+  EXPECT_EQ(job->snapshot().meters, nullptr) << "the light is another one";
+}
+
 TEST(MeteredJob, AMeterThatCannotBeIsRefusedBeforeTheRun) {
   preset::Preset p = room();
   p.scene.meters[0].within = preset::Box{{5, 5, 5}, {6, 6, 6}};

@@ -5,6 +5,8 @@
 #include "run/meters.h"
 #include "tests/support/presets.h"
 #include "tests/support/render.h"
+#include "tests/support/saved_jobs.h"
+#include "tracing/archive.h"
 
 namespace nephroid::reading_test {
 
@@ -239,6 +241,25 @@ TEST(MeterRun, TheSameSeedGivesTheSameBits) {
   };
   EXPECT_EQ(watts(1), watts(1));
   EXPECT_NE(watts(1), watts(2));
+}
+
+// After a cycle in which an unbroken run reads nothing: the resumed one reads for its first time, and its work goes on
+// where it went.
+TEST(MeterRun, ResumedItGoesOnWithTheSameBits) {
+  const run::Prepared prepared = run::prepare(room(0.5));
+  const auto until = [](run::Metering& metering, std::int64_t cycles) {
+    while (metering.meters()[0].run->cycles() < cycles) metering.advance();
+  };
+  run::Metering whole(prepared, {shared_context(), Communicator(nullptr)}),
+      resumed(prepared, {shared_context(), Communicator(nullptr)});
+  until(whole, 5);
+  EXPECT_TRUE(test::load<tracing::Archive>(resumed, test::saved<tracing::Archive>(whole)));
+  until(whole, 12);
+  until(resumed, 12);
+  const auto mean = [](const run::Metering& metering) {
+    return metering.meters()[0].reading->all().numbers(Quantity::irradiance).mean.value;
+  };
+  EXPECT_EQ(mean(resumed), mean(whole));
 }
 
 TEST(MeterRun, SaysWhatItCannotMeasure) {

@@ -73,6 +73,19 @@ TEST(Glazing, ClearPanesPassWhatFresnelSays) {
     }
 }
 
+// The index that is found from the data is of both faces.
+TEST(Glazing, UnlikeFacesHaveACoating) {
+  preset::Pane pane;
+  pane.type = preset::Pane::Type::measured;
+  pane.transmittance.value = 0.6;
+  pane.front_reflectance.value = 0.05;
+  pane.back_reflectance.value = 0.3;
+  const auto load = [&] { parts(window(true), glazing({pane}), 0, 550); };
+  load();
+  pane.coated = false;
+  EXPECT_THAT(test::refusal_of(load), HasSubstr("the faces reflect 0.05 and 0.3 at 380 nm"));
+}
+
 // A coating that reflects red and lets blue pass, in front of glass that keeps a part: each wavelength has its own
 // parts, though all go the way that chance gives to their mean.
 TEST(Glazing, EachWavelengthAndSideHasItsOwnParts) {

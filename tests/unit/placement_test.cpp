@@ -69,8 +69,8 @@ TEST(Placement, PlanesThatAreCoveredAreTold) {
     return covered(make_meter(meter, scene, Location("test")), scene, build_bvh(scene.geometry));
   };
   EXPECT_EQ(of_plane(0.001, {0, 1, 0}), std::nullopt);
-  EXPECT_THAT(of_plane(-0.001, {0, 1, 0}), Optional(HasSubstr("'sheet' looks at 'table' from close by")));
-  EXPECT_THAT(of_plane(0.001, {0, -1, 0}), Optional(HasSubstr("'sheet' looks at 'table' from close by")));
+  EXPECT_THAT(of_plane(-0.001, {0, 1, 0}), Optional(HasSubstr("'sheet' looks at object 'table' from close by")));
+  EXPECT_THAT(of_plane(0.001, {0, -1, 0}), Optional(HasSubstr("'sheet' looks at object 'table' from close by")));
   EXPECT_EQ(of_plane(0.1, {0, -1, 0}), std::nullopt) << "two cells away light comes from the sides";
 }
 

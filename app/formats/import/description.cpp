@@ -65,9 +65,13 @@ std::string read_packed_file(const fs::path& file) {
   return lower_case(file.extension().string()) == ".gz" ? inflated(bytes, file) : bytes;
 }
 
+std::string ending_of(const fs::path& file) {
+  const std::string ending = lower_case(file.extension().string());
+  return ending == ".gz" ? lower_case(file.stem().extension().string()) : ending;
+}
+
 void describe_file(const fs::path& file, Description& into) {
-  const fs::path plain = lower_case(file.extension().string()) == ".gz" ? file.stem() : file;
-  const std::string kind = lower_case(plain.extension().string());
+  const std::string kind = ending_of(file);
   if (kind == ".xml") return describe_mitsuba(file, into);
   if (kind == ".pbrt") return describe_pbrt(file, into);
   if (kind == ".asc") return describe_gemcad(file, into);

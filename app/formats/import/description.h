@@ -210,4 +210,7 @@ void describe_gemcad(const std::filesystem::path& file, Description& into);
 /// The one of them that the file's ending asks for, behind which .gz may stand.
 void describe_file(const std::filesystem::path& file, Description& into);
 
+/// In lower case with its dot, of "scene.pbrt.gz" ".pbrt".
+std::string ending_of(const std::filesystem::path& file);
+
 } // namespace nephroid::formats
