@@ -60,7 +60,7 @@ struct CellSums {
     light.resize(cells.size()), square_half.resize(cells.size()), hours_above.resize(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
       light[i] += weight_h * cells[i].value;
-      square_half[i] += std::pow(weight_h * cells[i].half(), 2);
+      square_half[i] += std::pow(weight_h * (cells[i].high - cells[i].value), 2);
       if (threshold && cells[i].value > *threshold) hours_above[i] += weight_h;
     }
   }
@@ -79,12 +79,9 @@ struct Series {
   glm::dvec3 origin{0};                   ///< preset coordinates of the scene's (0, 0, 0)
   run::MapFilm film;                      ///< of all hours, where files are written
 
-  explicit Series(const preset::Meter& of) : meter(of) {
-    if (!of.threshold) return;
-    const preset::Quantity limit = preset::quantity_in(*of.threshold).value();
-    if (preset::is_luminous(limit.unit) == preset::is_luminous(of.unit))
-      threshold = limit.value * preset::size_of(limit.unit);
-  }
+  explicit Series(const preset::Meter& of)
+      : meter(of), threshold(preset::threshold_in(of, preset::is_luminous(of.unit) ? preset::Meter::Unit::lux
+                                                                                   : preset::Meter::Unit::watts)) {}
   /// The line of the highest peak. There is one.
   const Line& top() const {
     return *std::ranges::max_element(lines, {}, [](const Line& line) { return line.peak.value; });
@@ -206,7 +203,7 @@ std::string hours_csv(const Series& series) {
 }
 
 void report(const HoursOptions& options, const run::Hours& hours, const std::vector<Series>& by_meter,
-            optics::SpectralRange range, const std::string& preset) {
+            optics::SpectralRange range, const std::string& preset, double metres_per_unit) {
   Json object{{"preset", preset},       {"wavelengths", text_of(range)},  {"confidence", 0.95},
               {"series", hours.about},  {"missing_hours", hours.missing}, {"hours_each", hours.weight_h},
               {"meters", Json::array()}};
@@ -226,10 +223,11 @@ void report(const HoursOptions& options, const run::Hours& hours, const std::vec
     if (!series.highest) continue;
     write_file_whole(options.folder / (stem + "-hours.csv"), hours_csv(series));
     write_file_whole(options.folder / (stem + "-cells.csv"), cells_csv(series));
-    const measure::Bitmap map = meters::false_colours(series.meter, series.surface, *series.highest);
+    const measure::Bitmap map = meters::false_colours(series.meter, series.surface, metres_per_unit, *series.highest);
     image::write_png_bytes(options.folder / (stem + "-highest.png"), map.width, map.height, map.rgba);
-    if (const auto why_not = series.film.write(options.folder / (stem + "-hours"),
-                                               options.folder / (stem + "-hours.mp4"), series.meter, series.surface))
+    if (const auto why_not =
+            series.film.write(options.folder / (stem + "-hours"), options.folder / (stem + "-hours.mp4"), series.meter,
+                              series.surface, metres_per_unit))
       fmt::print(stderr, "note: {}: there is no video: {}\n", series.meter.name, *why_not);
   }
 }
@@ -259,6 +257,9 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
   if (hours.twilight > 0)
     fmt::print(stderr, "note: {} of the weather file have light and their sun below the horizon, and are left out\n",
                counted(hours.twilight, "hour"));
+  if (hours.too_bright > 0)
+    fmt::print(stderr, "note: in {} of the weather file the sun is brighter than above the air: are these W/m^2?\n",
+               counted(hours.too_bright, "hour"));
   if (!options.folder.empty()) fs::create_directories(options.folder);
   std::vector<Series> by_meter;
   for (const preset::Meter& meter : prepared.preset.scene.meters)
@@ -298,7 +299,7 @@ void measure_hours(const HoursOptions& options, const run::Prepared& prepared, c
     }
   }
   live.clear();
-  report(options, hours, by_meter, range, prepared.preset.name);
+  report(options, hours, by_meter, range, prepared.preset.name, prepared.loaded->scene.metres_per_unit);
   if (interrupted.stop_requested())
     throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted: the numbers are of the hours until then");
 }

@@ -35,7 +35,8 @@ void write_spreads(const std::filesystem::path& file, const GemPictures& picture
   measure::draw(bitmap, pictures.side, bar);
   for (int y = 0; y < pictures.side; ++y)
     for (int x = 0; x < pictures.side; ++x) {
-      const auto i = static_cast<std::size_t>(y * pictures.side + x);
+      const auto i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(pictures.side) + static_cast<std::size_t>(x);
       if (pictures.outline[i] > 0) bitmap.set(x, y, measure::map_colour(pictures.spread_deg[i] / scale));
     }
   image::write_png_bytes(file, bitmap.width, bitmap.height, bitmap.rgba);

@@ -96,6 +96,12 @@ void Bitmap::set(int x, int y, const Colour& colour) {
   std::copy(colour.begin(), colour.end(), rgba.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
+Colour Bitmap::at(int x, int y) const {
+  const std::size_t at =
+      4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  return {rgba[at], rgba[at + 1], rgba[at + 2]};
+}
+
 void Bitmap::fill(int x, int y, int w, int h, const Colour& colour) {
   for (int row = y; row < y + h; ++row)
     for (int column = x; column < x + w; ++column) set(column, row, colour);

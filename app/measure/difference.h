@@ -38,6 +38,7 @@ struct Bitmap {
 
   Bitmap(int w, int h);
   void set(int x, int y, const std::array<unsigned char, 3>& colour);
+  std::array<unsigned char, 3> at(int x, int y) const;
   void fill(int x, int y, int w, int h, const std::array<unsigned char, 3>& colour);
 };
 

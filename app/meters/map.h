@@ -5,6 +5,7 @@
 #include "measure/difference.h"
 #include "meters/reading.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,14 +39,20 @@ struct ColouredMap {
   measure::Bitmap bitmap; ///< a cell is zoom x zoom pixels
   int zoom = 1;
 };
-/// scale: where the colours end. edge: of the bitmap's longer side, in pixels, where cells are fewer.
-ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<float>& values, double scale, int edge);
+/// A green line is about what is above the threshold, and a cross is at the highest cell. scale: where the colours end.
+/// edge: of the bitmap's longer side, in pixels, where cells are fewer.
+ColouredMap coloured(const scene::MeterSurface& surface, const std::vector<float>& values, double scale,
+                     std::optional<double> threshold, int edge);
 
-/// Values of the meter's unit in false colours with lines of equal value, and the scale beside them. title: a line
-/// above the map; may be empty. Throws as image::text_picture.
-measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface,
+/// Where the colours end: at measure::colour_scale of the values, and not below a threshold that one of them is above.
+double map_scale(const std::vector<float>& values, std::optional<double> threshold);
+
+/// Values of the meter's unit in false colours with lines of equal value, the scale beside them, and below them how
+/// large the map is and where its sides lie. title: a line above the map; may be empty. Throws as image::text_picture.
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, double metres_per_unit,
                               const std::vector<float>& values, double scale, const std::string& title);
-/// The same with the scale of the values alone (measure::colour_scale).
-measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, const Reading& reading);
+/// The same with the scale of the values alone (map_scale).
+measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurface& surface, double metres_per_unit,
+                              const Reading& reading);
 
 } // namespace nephroid::meters

@@ -78,7 +78,7 @@ Interval extreme(const CellValues& values_of, const std::vector<double>& means, 
   const double half_width =
       students_t(replicates - 1) * std::sqrt(square / ((replicates - 2) * replicates)) + rounding * std::abs(mean);
   const Interval own = interval_of(values_of.cell(found), rounding);
-  if (better(1, 0)) return {own.value, std::min(mean - half_width, own.value), own.high};
+  if (better(1, 0)) return {own.value, std::min(std::max(mean - half_width, 0.0), own.value), own.high};
   return {own.value, own.low, std::max(mean + half_width, own.value)};
 }
 
@@ -150,7 +150,7 @@ Interval interval_of(std::span<const double> values, double rounding) {
   for (const double value : values) mean += value / count;
   for (const double value : values) square += (value - mean) * (value - mean);
   const double half = students_t(values.size()) * std::sqrt(square / (count * (count - 1))) + rounding * std::abs(mean);
-  return {mean, mean - half, mean + half};
+  return {mean, std::max(mean - half, std::min(mean, 0.0)), mean + half};
 }
 
 Reading read(const preset::Meter& meter, const scene::MeterSurface& surface, double metres_per_unit,

@@ -22,7 +22,8 @@ struct Interval {
   double half() const { return (high - low) / 2; }
 };
 
-/// The mean of independent values of one distribution. rounding: that much of it is added each way.
+/// The mean of independent values of one distribution. rounding: that much of it is added each way. Light is not below
+/// 0, and so no end is that lies below the mean.
 Interval interval_of(std::span<const double> replicates, double rounding);
 
 /// Irradiance in W/m^2 and illuminance in lux; of a goniometer intensities in W/sr and cd.

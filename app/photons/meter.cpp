@@ -226,7 +226,7 @@ private:
 /// Where there is no light.
 class DarkRun final : public MeterRun {
 public:
-  explicit DarkRun(std::size_t cells) : dark_{"direct", std::vector<double>(2 * meter_replicates * cells)} {}
+  explicit DarkRun(std::size_t cells) : dark_{"direct", std::vector<double>(cells * 2 * meter_replicates)} {}
   void advance() override { ++cycles_; }
   std::int64_t cycles() const override { return cycles_; }
   std::uint64_t photons() const override { return 0; }

@@ -23,7 +23,10 @@ std::optional<Quantity> quantity_in(std::string_view text) {
     while (!part.empty() && is_space(part.back())) part.remove_suffix(1);
     return part;
   };
-  text = trimmed(text);
+  std::string plain(trimmed(text));
+  for (const std::string_view square_metre : {"m2", "m²"})
+    if (plain.ends_with(square_metre)) plain.replace(plain.size() - square_metre.size(), square_metre.size(), "m^2");
+  text = plain;
   for (const auto& choice : choices<Meter::Unit>) {
     if (!text.ends_with(choice.name)) continue;
     const std::string number(trimmed(text.substr(0, text.size() - choice.name.size())));
@@ -31,6 +34,13 @@ std::optional<Quantity> quantity_in(std::string_view text) {
       return Quantity{*value, choice.value};
   }
   return std::nullopt;
+}
+
+std::optional<double> threshold_in(const Meter& meter, Meter::Unit unit) {
+  if (!meter.threshold) return std::nullopt;
+  const Quantity threshold = quantity_in(*meter.threshold).value(); // preset::check has looked
+  if (is_luminous(threshold.unit) != is_luminous(unit)) return std::nullopt;
+  return threshold.value * size_of(threshold.unit) / size_of(unit);
 }
 
 std::string file_stem(const Meter& meter) {

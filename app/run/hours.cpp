@@ -17,6 +17,9 @@ using std::chrono::sys_days;
 
 constexpr sys_days first_day{std::chrono::year{2000} / 1 / 1};
 
+/// W/m^2 of the sun above the air in January, when it is nearest (1361 of Kopp and Lean 2011, times 1.035).
+constexpr double above_the_air = 1408;
+
 /// Of the days from 2000-01-01.
 std::string date_of(int day) {
   const std::chrono::year_month_day date(first_day + days(day));
@@ -82,8 +85,10 @@ Hours hours_of_weather(const scene::Weather& weather, const preset::PlaceAndTime
       ++hours.missing;
     else if (scene::sun_place(then).elevation_deg <= 0)
       hours.twilight += *hour.direct_w + *hour.diffuse_w > 0 ? 1 : 0;
-    else
+    else {
+      hours.too_bright += *hour.direct_w > above_the_air ? 1 : 0;
       hours.hours.push_back({then.date, hour.hour, hour.direct_w, hour.diffuse_w, weather.utc_offset_h});
+    }
   }
   return hours;
 }

@@ -25,6 +25,7 @@ struct Hours {
   double weight_h = 1;
   int missing = 0;  ///< hours that a weather file has no data for; they are left out
   int twilight = 0; ///< hours with light in the file whose sun is below the horizon in their middle; they are left out
+  int too_bright = 0; ///< hours whose sun is brighter than above the air; they are measured
   std::vector<Hour> hours = {};
 };
 

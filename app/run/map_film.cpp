@@ -23,7 +23,7 @@ constexpr double hours_a_second = 6;
 
 void MapFilm::add(const preset::Meter& meter, const meters::Reading& reading, std::string title) {
   std::vector<float> values = meters::shown_values(meter, reading);
-  scale_ = std::max(scale_, measure::colour_scale(values));
+  scale_ = std::max(scale_, meters::map_scale(values, preset::threshold_in(meter, preset::unit_of(meter))));
   if ((frames_.size() + 1) * values.size() > most_values)
     ++left_out_;
   else
@@ -31,7 +31,7 @@ void MapFilm::add(const preset::Meter& meter, const meters::Reading& reading, st
 }
 
 std::optional<std::string> MapFilm::write(const fs::path& folder, const fs::path& video, const preset::Meter& meter,
-                                          const scene::MeterSurface& surface) const {
+                                          const scene::MeterSurface& surface, double metres_per_unit) const {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw failed(folder.string(), error.message(), "expected a folder that can be made");
@@ -39,7 +39,8 @@ std::optional<std::string> MapFilm::write(const fs::path& folder, const fs::path
   std::error_code ignored;
   fs::remove(video, ignored);
   for_blocks(frames_.size(), [&](std::size_t i) {
-    const measure::Bitmap map = meters::false_colours(meter, surface, frames_[i].values, scale_, frames_[i].title);
+    const measure::Bitmap map =
+        meters::false_colours(meter, surface, metres_per_unit, frames_[i].values, scale_, frames_[i].title);
     image::write_png_bytes(frame_picture(folder, static_cast<int>(i)), map.width, map.height, map.rgba);
   });
   if (left_out_ > 0) return counted(left_out_, "hour") + " would need more than a GiB of memory, and have no frame";

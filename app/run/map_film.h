@@ -18,7 +18,8 @@ public:
   /// hours that memory has room for. The scale is the largest of an hour's own. Returns why there is no video, or
   /// nothing; throws failed as writing does.
   std::optional<std::string> write(const std::filesystem::path& folder, const std::filesystem::path& video,
-                                   const preset::Meter& meter, const scene::MeterSurface& surface) const;
+                                   const preset::Meter& meter, const scene::MeterSurface& surface,
+                                   double metres_per_unit) const;
 
 private:
   struct Frame {

@@ -86,7 +86,7 @@ std::vector<std::string> write_meters(const fs::path& folder, const std::string&
       write_file_whole(file(shown, ".ldt"), meters::eulumdat(shown.meter, surface, *shown.reading, stem));
     }
     image::write_exr(file(shown, ".exr"), meters::picture(surface, shown.metres_per_unit, *shown.reading));
-    const measure::Bitmap map = meters::false_colours(shown.meter, surface, *shown.reading);
+    const measure::Bitmap map = meters::false_colours(shown.meter, surface, shown.metres_per_unit, *shown.reading);
     image::write_png_bytes(file(shown, ".png"), map.width, map.height, map.rgba);
   }
   write_file_whole(folder / files.emplace_back("measure.json"), to_json(preset_name, readings).dump(2) + "\n");

@@ -116,8 +116,9 @@ private:
       const std::string unit = quantity == meters::Quantity::irradiance ? "w" : "lm";
       const std::string per = shown.surface->is_goniometer() ? "_sr" : "_m2";
       for (const auto& [name, interval] : {std::pair("mean_", &numbers.mean), std::pair("peak_", &numbers.peak)}) {
-        snapshot.scalars.push_back({group, name + unit + per, interval->value});
-        snapshot.scalars.push_back({group, name + unit + per + "_half_width", interval->half()});
+        const std::string full = fmt::format("{}{}{}", name, unit, per);
+        snapshot.scalars.push_back({group, full, interval->value});
+        snapshot.scalars.push_back({group, full + "_half_width", interval->half()});
       }
     }
     job::Curve curve{

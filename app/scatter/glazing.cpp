@@ -142,14 +142,16 @@ optics::MeasuredPane measured_pane(const preset::Pane& from, const Loading& load
 /// The table of kernels/tracing/shared_types.h.
 std::vector<double> table_by_angle(std::span<const optics::Pane> panes, optics::SpectralRange range) {
   static_assert(GLAZING_PARTS == optics::wavelength_count + 1);
-  std::vector<double> table(std::size_t{GLAZING_ANGLES} * GLAZING_ROW);
+  constexpr int row_values = GLAZING_ROW;
+  constexpr std::size_t row = row_values;
+  std::vector<double> table(GLAZING_ANGLES * row);
   const optics::Spectrum sun = optics::blackbody(5778, range);
   const double whole = optics::sum_of(sun);
   for (std::size_t i = 0; i < GLAZING_ANGLES; ++i)
     for (std::size_t w = 0; w < sun.size(); ++w) {
       const double root = double(i) / (GLAZING_ANGLES - 1);
       const optics::GlazingParts at = optics::glazing_parts(panes, root * root, w, range);
-      double* column = &table[i * GLAZING_ROW];
+      double* column = &table[i * row];
       for (const double part : {at.passes, at.front, at.back}) {
         column[w] = part;
         column[GLAZING_PARTS - 1] += part * sun[w] / whole;

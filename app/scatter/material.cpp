@@ -55,8 +55,9 @@ optics::Spectrum Loading::spectrum(const preset::Reflectance& reflectance, const
   if (range != optics::SpectralRange::visible && reflectance.type == Type::patch)
     known_from(field, optics::first_nm, optics::last_nm);
   if (range != optics::SpectralRange::visible && reflectance.type == Type::table) {
-    const auto [low, high] = std::ranges::minmax(reflectance.table | std::views::elements<0>);
-    known_from(field, low, high);
+    const auto [low, high] =
+        std::ranges::minmax(reflectance.table, {}, [](const std::array<double, 2>& row) { return row[0]; });
+    known_from(field, low[0], high[0]);
   }
   return make_reflectance(reflectance, where / field, range);
 }

@@ -166,6 +166,12 @@ TEST_F(GemcadImport, WhatIsLeftOutIsSaid) {
                                         HasSubstr("no index of refraction: 1.54 of quartz")}));
 }
 
+// A file that is cut before its table.
+TEST_F(GemcadImport, AStoneWithoutATableIsSaid) {
+  imported(head + "a -45 1 0 24 48 72\na 45 1 0 24 48 72\n");
+  EXPECT_THAT(made.notes, Contains(HasSubstr("has no table")));
+}
+
 TEST_F(GemcadImport, WhatIsNoStoneIsRefused) {
   const auto changed = [](const std::string& from, const std::string& to) {
     std::string text = cube;

@@ -140,7 +140,7 @@ TEST(MeterHours, FilmsHaveOneScale) {
   run::MapFilm film;
   film.add(meter.meter, *meter.reading, "2026-06-21  12:00");
   film.add(meter.meter, dark, "2026-06-21  18:00");
-  const auto why_not = film.write(frames, folder.path() / "level-hours.mp4", meter.meter, *meter.surface);
+  const auto why_not = film.write(frames, folder.path() / "level-hours.mp4", meter.meter, *meter.surface, 1);
   EXPECT_EQ(why_not.has_value(), !fs::exists(folder.path() / "level-hours.mp4"));
   const auto colour = [&](const char* file) {
     const image::Image picture = image::read_image(frames / file);
@@ -148,10 +148,10 @@ TEST(MeterHours, FilmsHaveOneScale) {
     return picture.data[middle * picture.channels.size()];
   };
   EXPECT_GT(colour("frame_0000.png"), 1.5f * colour("frame_0001.png"));
-  film.write(frames, folder.path() / "level-hours.mp4", meter.meter, *meter.surface);
+  film.write(frames, folder.path() / "level-hours.mp4", meter.meter, *meter.surface, 1);
   run::MapFilm shorter;
   shorter.add(meter.meter, dark, "2026-06-21  18:00");
-  shorter.write(frames, folder.path() / "level-hours.mp4", meter.meter, *meter.surface);
+  shorter.write(frames, folder.path() / "level-hours.mp4", meter.meter, *meter.surface, 1);
   EXPECT_FALSE(fs::exists(frames / "frame_0001.png")) << "earlier frames go";
 }
 
@@ -185,6 +185,7 @@ TEST_F(WeatherFile, GivesItsHoursTheirSunAndSky) {
   const run::Hours hours = run::hours_of_weather(weather, *p.scene.environment->place, 1);
   EXPECT_EQ(hours.missing, 22);
   EXPECT_EQ(hours.twilight, 1);
+  EXPECT_EQ(hours.too_bright, 0);
   ASSERT_EQ(hours.hours.size(), 1u);
   EXPECT_EQ(hours.hours[0].date, "2026-06-21");
   EXPECT_EQ(hours.hours[0].hour, 13.5);

@@ -112,6 +112,47 @@ TEST(MeterReading, AMapHasACellWhereTheSurfaceHas) {
   EXPECT_THAT(table, HasSubstr("\n2,10,0,0,0,1,0,1,3,"));
 }
 
+// The end of the colours is the 99th of a hundred values, but what is above the threshold has to be told from what is
+// not.
+TEST(MeterReading, TheScaleOfAMapReachesAThresholdThatIsMet) {
+  std::vector<float> values(1000, 40);
+  values.back() = 3000;
+  EXPECT_EQ(meters::map_scale(values, std::nullopt), 50);
+  EXPECT_EQ(meters::map_scale(values, 2500), 5000);
+  EXPECT_EQ(meters::map_scale(values, 3500), 50) << "nothing is above it";
+  EXPECT_EQ(meters::map_scale(values, 20), 50);
+}
+
+TEST(MeterReading, AMapHasItsThresholdAndItsPeak) {
+  scene::MeterSurface surface = cells(100);
+  surface.charts = {{.columns = 10, .rows = 10}};
+  surface.cells.resize(100);
+  std::ranges::generate(surface.cells, [cell = 0]() mutable { return cell++; });
+  std::vector<float> values(100, 1);
+  values[55] = 9;
+  const meters::ColouredMap without = meters::coloured(surface, values, 10, std::nullopt, 200),
+                            with = meters::coloured(surface, values, 10, 5, 200);
+  const auto greens = [](const meters::ColouredMap& map) {
+    int count = 0;
+    for (int y = 0; y < map.bitmap.height; ++y)
+      for (int x = 0; x < map.bitmap.width; ++x)
+        count += map.bitmap.at(x, y) == std::array<unsigned char, 3>{0, 255, 128};
+    return count;
+  };
+  EXPECT_EQ(greens(without), 0);
+  EXPECT_GT(greens(with), 40);
+  EXPECT_LT(greens(with), 120) << "a line about one cell of 20 x 20 pixels";
+  constexpr std::array<unsigned char, 3> white{255, 255, 255};
+  EXPECT_EQ(with.bitmap.at(5 * 20 + 10, 5 * 20 + 10), white) << "the cross";
+}
+
+TEST(MeterReading, NoEndOfLightIsBelowNothing) {
+  const Interval interval = meters::interval_of(std::vector<double>{0, 0, 0, 8}, 0);
+  EXPECT_EQ(interval.value, 2);
+  EXPECT_EQ(interval.low, 0);
+  EXPECT_NEAR(interval.high, 2 + 3.182 * 2, 1e-9); // Student's t of 3, and a standard error of 2
+}
+
 // Runs.
 
 preset::Preset room(double reflectance) {

@@ -145,10 +145,21 @@ TEST(MeterPreset, QuantitiesHaveUnits) {
   const auto kilowatts = preset::quantity_in("2.5 kW/m^2");
   ASSERT_TRUE(kilowatts);
   EXPECT_EQ(kilowatts->value * preset::size_of(kilowatts->unit), 2500);
+  for (const char* text : {"2500 W/m2", "2500 W/m²", "2500W/m^2 "})
+    EXPECT_EQ(preset::quantity_in(text)->unit, Meter::Unit::watts) << text;
   EXPECT_EQ(preset::quantity_in("500lx")->unit, Meter::Unit::lux);
   EXPECT_EQ(preset::quantity_in("3 klx")->unit, Meter::Unit::kilolux);
   for (const char* text : {"", "500", "lx", "-1 lx", "1 W", "x lx", "inf lx"})
     EXPECT_FALSE(preset::quantity_in(text)) << text;
+}
+
+TEST(MeterPreset, AThresholdIsOfOneQuantity) {
+  Meter meter;
+  EXPECT_FALSE(preset::threshold_in(meter, Meter::Unit::watts));
+  meter.threshold = "2.5 kW/m^2";
+  EXPECT_EQ(preset::threshold_in(meter, Meter::Unit::watts), 2500);
+  EXPECT_EQ(preset::threshold_in(meter, Meter::Unit::suns), 2.5);
+  EXPECT_FALSE(preset::threshold_in(meter, Meter::Unit::lux));
 }
 
 } // namespace nephroid::surface_test

@@ -188,8 +188,9 @@ void MetersPanel::draw_map(const Context&) {
     for (const Interval& cell : layer().cells[static_cast<std::size_t>(meters::quantity_of(unit_now_))])
       values.push_back(static_cast<float>(cell.value / preset::size_of(unit_now_)));
     map_ = meters::map_of(*shown_->surface);
-    high_ = measure::colour_scale(values);
-    const meters::ColouredMap picture = meters::coloured(*shown_->surface, values, high_, 640);
+    const auto threshold = preset::threshold_in(shown_->meter, unit_now_);
+    high_ = meters::map_scale(values, threshold);
+    const meters::ColouredMap picture = meters::coloured(*shown_->surface, values, high_, threshold, 640);
     zoom_ = picture.zoom;
     std::ranges::copy(picture.bitmap.rgba, texture_.edit(picture.bitmap.width, picture.bitmap.height).begin());
     coloured_ = now;
@@ -215,8 +216,9 @@ void MetersPanel::draw_map(const Context&) {
 
 /// Marks the chosen cell and says what it has.
 void MetersPanel::draw_cell(std::size_t cell) {
-  const auto place = std::ranges::find(map_.cells, static_cast<int>(cell)) - map_.cells.begin();
-  const auto column = static_cast<float>(place % map_.width), row = static_cast<float>(place / map_.width);
+  const auto place = static_cast<int>(std::ranges::find(map_.cells, static_cast<int>(cell)) - map_.cells.begin());
+  const int rows_above = place / map_.width;
+  const auto column = static_cast<float>(place % map_.width), row = static_cast<float>(rows_above);
   const ImVec2 low = ImGui::GetItemRectMin(),
                step((ImGui::GetItemRectMax().x - low.x) / static_cast<float>(map_.width),
                     (ImGui::GetItemRectMax().y - low.y) / static_cast<float>(map_.height));

@@ -46,7 +46,7 @@ void MapOnPicture::colour(const meters::Shown& shown, const Seen& seen) {
   const preset::Meter::Unit unit = preset::unit_of(shown.meter);
   const std::vector<float> values = meters::shown_values(shown.meter, *shown.reading);
   unit_ = preset::word(unit);
-  high_ = measure::colour_scale(values);
+  high_ = meters::map_scale(values, preset::threshold_in(shown.meter, unit));
   const scene::Camera& camera = seen.loaded->scene.camera;
   size_ = {camera.width, camera.height};
   const std::span<unsigned char> bytes = texture_.edit(camera.width, camera.height);

@@ -200,6 +200,9 @@ ConvexBody stone_of(const GemcadFile& gem, Description& into) {
       into.note(gem.tiers[i].where,
                 fmt::format("{} of its {} {} nothing of the stone", unseen[i],
                             counted(gem.tiers[i].indices.size(), "facet"), unseen[i] == 1 ? "cuts" : "cut"));
+  const auto is_table = [&](const ConvexBody::Face& face) { return planes[face.half_space].normal.y > 1 - 1e-6; };
+  if (std::ranges::none_of(stone.faces, is_table))
+    into.note("no facet is level above: the stone has no table. Is the file whole?");
   return stone;
 }
 
