@@ -227,7 +227,10 @@ measure::Bitmap false_colours(const preset::Meter& meter, const scene::MeterSurf
   const auto room_of = [](const image::Image& words) { return words.height > 0 ? words.height + 2 * margin : 0; };
   const image::Image above = words_of(title), unit = words_of(std::string(preset::word(preset::unit_of(meter)))),
                      below = words_of(sides_of(surface, metres_per_unit)),
-                     limit = words_of(threshold ? "green: " + *meter.threshold : "");
+                     limit = words_of(!threshold ? ""
+                                      : std::ranges::max(values) > *threshold
+                                          ? fmt::format("green: {}", *meter.threshold)
+                                          : fmt::format("nothing is above {}", *meter.threshold));
   const int top = room_of(above) + room_of(unit), bottom = top + std::max(map.height, bar.height);
   measure::Bitmap bitmap(std::max({map.width + std::max(bar.width, unit.width + 2 * margin), above.width + 2 * margin,
                                    below.width + 2 * margin, limit.width + 2 * margin}),

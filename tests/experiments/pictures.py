@@ -208,22 +208,11 @@ def meters_facade(s, name):
     s.keep(name, [folder / "street.png"])
 
 
-def facade(s, name):
-    """The map of the highest hour of a year."""
-    folder = s.folder / "facade"
-    every, seconds = (180, 0.1) if s.small else (14, 1)
-    s.call(
-        *(s.program, "measure", "street", "--hours", "year", "--every", every, "--until", 5, "--seconds", seconds),
-        *("--set", "scene.objects.0.material=silvered", "-o", folder),
-    )
-    s.keep(name, [folder / "street-highest.png"])
-
-
-def map_of(s, name, preset, meter, first=None):
-    """The map of a tour's meter. first: a preset whose luminaire's file it needs."""
+def map_of(s, name, preset, meter, first=None, until=1, settings=()):
+    """The map of a tour's meter. first: a preset whose luminaire's file it needs. until: percent."""
     for each in [first, preset] if first else [preset]:
-        time = ("--seconds", 0.1) if s.small else ("--until", 1)
-        s.call(s.program, "measure", each, *time, "-o", s.folder / "out" / each)
+        time = ("--seconds", 0.1) if s.small else ("--until", until)
+        s.call(s.program, "measure", each, *time, *settings, "-o", s.folder / "out" / each)
     s.keep(name, [s.folder / "out" / preset / f"{meter}.png"])
 
 
@@ -387,7 +376,16 @@ MAKERS = {
     "first-light.png": first_light,
     "grazing-rainbow.png": grazing_rainbow,
     "meters-facade.png": meters_facade,
-    "tours/facade.png": facade,
+    "tours/facade.png": partial(
+        map_of,
+        preset="street",
+        meter="street",
+        until=2,
+        settings=(
+            *("--set", "scene.objects.0.material=silvered", "--set", "scene.environment.place.date=2026-04-09"),
+            *("--set", "scene.meters.0.cell=0.5"),
+        ),
+    ),
     "tours/fire.png": partial(map_of, preset="ball", meter="paper"),
     "tours/luminaire.png": partial(map_of, preset="desk", meter="desk", first="luminaire"),
     "gems.png": gems,
