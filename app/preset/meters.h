@@ -42,8 +42,8 @@ struct Quantity {
   Meter::Unit unit = Meter::Unit::watts;
 };
 
-/// A value as Meter::threshold has it: "2500 W/m^2", of which W/m2 and W/m² are other spellings. Nothing where there is
-/// no unit, or none of meter_units().
+/// A value as Meter::threshold has it: "2500 W/m^2". W/m2 and W/m² are other spellings. Nothing where there is no unit,
+/// or none of meter_units().
 std::optional<Quantity> quantity_in(std::string_view text);
 
 /// A meter's threshold in this unit. Nothing where it has none, or one of the other quantity.
