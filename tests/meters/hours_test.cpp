@@ -198,6 +198,18 @@ TEST_F(WeatherFile, GivesItsHoursTheirSunAndSky) {
   EXPECT_NEAR(level.value, 640 * sine + 210, std::max(2 * level.half(), 1.7));
 }
 
+// 1,361 W/m^2 come to the air in the mean of a year. What is more is measured, and counted.
+TEST_F(WeatherFile, CountsSunsThatAreBrighterThanAboveTheAir) {
+  std::string text = weather_of_a_day();
+  text.replace(text.find(",640,"), 5, ",1500,");
+  write_file_whole(folder_.path() / "a.epw", text);
+  const run::Hours hours = run::hours_of_weather(scene::read_weather(folder_.path() / "a.epw"),
+                                                 *london_preset().scene.environment->place, 1);
+  EXPECT_EQ(hours.too_bright, 1);
+  ASSERT_EQ(hours.hours.size(), 1u);
+  EXPECT_EQ(hours.hours[0].direct_w, 1500);
+}
+
 TEST_F(WeatherFile, IsRefusedWithItsLine) {
   const std::string whole = weather_of_a_day();
   EXPECT_THAT(refusal("no weather\n"), HasSubstr("line 1: does not begin with LOCATION"));
