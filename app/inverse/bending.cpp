@@ -19,6 +19,7 @@ std::optional<glm::dvec3> facet_normal(const glm::dvec3& in, const glm::dvec3& o
 }
 
 double slope_limit(double n) {
+  if (n < 0) return std::numeric_limits<double>::infinity();
   const double cosine = std::min(n, 1 / n);
   return std::sqrt(1 - cosine * cosine) / cosine;
 }
@@ -29,7 +30,7 @@ double slope_behind(double tilt_radians, double n) {
 }
 
 glm::dvec3 light_inside(const glm::dvec2& sines, double n) {
-  return {sines, -std::sqrt(n * n - glm::dot(sines, sines))};
+  return {sines, -std::copysign(std::sqrt(n * n - glm::dot(sines, sines)), n)};
 }
 
 glm::dvec2 slope_inside(const glm::dvec2& sines, double n) { return sines / -light_inside(sines, n).z; }
@@ -43,9 +44,14 @@ glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& s
 
 glm::dvec2 flat_slope(const glm::dvec2& sines) { return sines / std::sqrt(1 - glm::dot(sines, sines)); }
 
+glm::dvec3 unturned(const glm::dvec2& sines, double n) {
+  return n < 0 ? direction_of(flat_slope(sines)) : light_inside(sines, n) / n;
+}
+
 bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest) {
   const double n2 = n > 1 ? n * n : 1 / (n * n), most2 = usable_part * usable_part * (n2 - 1); // usable_slope squared
-  if (sines == glm::dvec2(0)) {
+  if (n < 0) { // its steepness is its only limit
+  } else if (sines == glm::dvec2(0)) {
     if (glm::dot(slope, slope) > most2) return false;
   } else {
     const double cosine = glm::dot(light_inside(sines, n), direction_of(slope)) / n;
@@ -68,6 +74,7 @@ glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& s
 }
 
 double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines) {
+  if (n < 0) return 1;
   const glm::dvec3 in = light_inside(sines, n) / n;
   const std::optional<glm::dvec3> normal = facet_normal(in, direction_of(slope), n);
   return normal ? 1 - optics::fresnel_reflectance(std::min(1.0, glm::dot(*normal, in)), n, 1) : 0;

@@ -40,6 +40,12 @@ inline constexpr Choice<inverse::Light::Shape> choices<inverse::Light::Shape>[] 
     {inverse::Light::Shape::rectangle, "rectangle", "A rectangle."}};
 
 template <>
+inline constexpr Choice<inverse::Settings::Kind> choices<inverse::Settings::Kind>[] = {
+    {inverse::Settings::Kind::glass, "glass", "It refracts light, which enters through its flat front."},
+    {inverse::Settings::Kind::mirror, "mirror",
+     "Its relief reflects light, which comes from the side of the receivers; its flat back is away from both."}};
+
+template <>
 inline constexpr Choice<inverse::Settings::Method> choices<inverse::Settings::Method>[] = {
     {inverse::Settings::Method::assign, "assign",
      "Facet after facet goes where the pictures lack most light, until a sweep gains little; then all move together."},
@@ -212,6 +218,7 @@ inline void describe(preset::Fields& v, Thesis& t) {
 inline void describe(preset::Fields& v, Settings& s) {
   v.about("Inverse", "Settings of the engine \"inverse\".");
   using preset::within;
+  v.field("kind", "Whether glass or a mirror turns the light.", s.kind);
   v.field("method", "How the facets' slopes are found.", s.method);
   v.field("size_mm", "Width and height of the object.", s.size_mm, {.unit = "mm", .bounds = within(0.1, 1e5)});
   v.field("outline", "What the object looks like from the front; light beside it is not there.", s.outline);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/glass_view.h"
 
+#include "inverse/bending.h"
 #include "inverse/light.h"
 #include "optics/colour.h"
 #include "preset/read.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nephroid::inverse {
 namespace {
@@ -22,8 +24,12 @@ constexpr double fov_deg = 30;
 constexpr double widest_disc_deg = 10; ///< that a directional light may have
 constexpr int view_height = 600, least_width = 600, most_width = 1800;
 
-/// From one object's middle to the next, so that light beside a receiver falls beside the others, too.
-double spacing(const Layout& layout) { return 1.4 * 2 * layout.half_room().x; }
+/// From one object's middle to the next, so that light beside a receiver falls beside the others, too. Light on its way
+/// to a mirror passes beside the others' receivers.
+double spacing(const Layout& layout) {
+  const double aside = layout.is_mirror() ? std::abs(flat_slope(layout.light.sines).x) * layout.distances.back() : 0;
+  return 1.4 * 2 * layout.half_room().x + aside;
+}
 
 double column(const Layout& layout, std::size_t receiver) {
   return (static_cast<double>(receiver) - (static_cast<double>(layout.distances.size()) - 1) / 2) * spacing(layout);
@@ -33,7 +39,7 @@ preset::Object object_over(const Layout& layout, std::size_t receiver) {
   preset::Object object;
   object.name = fmt::format("object over receiver {}", receiver + 1);
   object.mesh = "object.obj";
-  object.material = "glass";
+  object.material = layout.is_mirror() ? "mirror" : "glass";
   object.transform.translate = {column(layout, receiver), 0, 0};
   return object;
 }
@@ -97,27 +103,45 @@ preset::Object ground(const Layout& layout) {
 /// The line from a receiver's far edge to the camera passes the mask's near edge, or the object's, where it rises by
 /// the distance over half of both and the receiver's offset.
 double elevation(const Layout& layout, const glm::dvec3& falls) {
-  const double near = std::max(layout.size.y / 2, half_lit(layout, falls).y);
+  const double near = std::max(layout.size.y / 2, layout.is_mirror() ? 0 : half_lit(layout, falls).y);
   double free = glm::half_pi<double>();
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
     free = std::min(free, std::atan2(layout.distances[j], near + layout.receiver.y / 2 + layout.offset(j).y));
   return std::clamp(0.85 * free, glm::radians(20.0), glm::radians(50.0));
 }
 
+/// The corners of all objects and receivers.
+std::vector<glm::dvec3> corners_of(const Layout& layout) {
+  std::vector<glm::dvec3> corners;
+  const auto add = [&](const glm::dvec3& middle, const glm::dvec2& size) {
+    for (const glm::dvec2& side : {glm::dvec2(-1, -1), {-1, 1}, {1, -1}, {1, 1}})
+      corners.push_back(middle + glm::dvec3(side * size / 2.0, 0));
+  };
+  for (std::size_t j = 0; j < layout.distances.size(); ++j) {
+    add({column(layout, j), 0, 0}, layout.size);
+    add({column(layout, j), 0, layout.thickness}, layout.size);
+    add(glm::dvec3(column(layout, j), 0, -layout.distances[j]) + glm::dvec3(layout.offset(j), 0), layout.receiver);
+  }
+  return corners;
+}
+
 preset::Camera camera(const Layout& layout, const glm::dvec3& falls) {
-  const double up = elevation(layout, falls), last = layout.distances.back(),
-               count = static_cast<double>(layout.distances.size());
-  const double wide = (count - 1) * spacing(layout) + 2 * layout.half_room().x;
-  const double high = (last + layout.thickness) * std::cos(up) + 2 * layout.half_room().y * std::sin(up);
-  const double deep = (last + layout.thickness) * std::sin(up) + 2 * layout.half_room().y * std::cos(up);
+  const double up = elevation(layout, falls);
+  const glm::dmat3 axes{1, 0, 0, 0, std::sin(up), std::cos(up), 0, -std::cos(up), std::sin(up)}; // right, up, back
+  glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (const glm::dvec3& corner : corners_of(layout)) {
+    low = glm::min(low, corner * axes);
+    high = glm::max(high, corner * axes);
+  }
+  const glm::dvec3 room = high - low, target = axes * ((low + high) / 2.0);
   preset::Camera camera;
   camera.fov_deg = fov_deg;
-  camera.resolution = {std::clamp(static_cast<int>(view_height * wide / high), least_width, most_width), view_height};
+  camera.resolution = {std::clamp(static_cast<int>(view_height * room.x / room.y), least_width, most_width),
+                       view_height};
   const double aspect = static_cast<double>(camera.resolution[0]) / view_height;
-  const double away = 1.05 * std::max(high, wide / aspect) / 2 / std::tan(glm::radians(fov_deg / 2)) + deep / 2;
-  const glm::dvec3 target{0, 0, (layout.thickness - last) / 2};
+  const double away = 1.05 * std::max(room.y, room.x / aspect) / 2 / std::tan(glm::radians(fov_deg / 2)) + room.z / 2;
   camera.target = scene::to_vec3(target);
-  camera.position = scene::to_vec3(target + away * glm::dvec3(0, -std::cos(up), std::sin(up)));
+  camera.position = scene::to_vec3(target + away * axes[2]);
   camera.up = {0, 0, 1};
   return camera;
 }
@@ -131,6 +155,16 @@ preset::Dispersion dispersion_of(const preset::Preset& preset) {
                      scatter::find_dispersion(index.file, FileFinder(source.parent_path()), Location(preset.source)))
                      .string();
   return index;
+}
+
+preset::Material glass(const Layout& layout, const preset::Preset& preset) {
+  preset::Material material;
+  material.type = preset::Material::Type::dielectric;
+  if (layout.spectrum)
+    material.dispersion = dispersion_of(preset);
+  else
+    material.dispersion.n = layout.n;
+  return material;
 }
 
 /// The light's own, or that of the judge's band, in which colours part.
@@ -153,7 +187,8 @@ double disc_deg(const Layout& layout) {
 std::string otherwise(const Layout& layout, const Settings& s) {
   std::string said;
   if (layout.scatter > 0)
-    said += fmt::format(". Glass is polished here: a wider sun stands for the scatter_deg of {:g}", s.scatter_deg);
+    said += fmt::format(". {} is polished here: a wider sun stands for the scatter_deg of {:g}",
+                        layout.is_mirror() ? "The mirror" : "Glass", s.scatter_deg);
   if (const double disc = disc_deg(layout); disc > widest_disc_deg)
     said +=
         fmt::format(". The disc of {:.3g} degrees would blur more than this one of {:g} does", disc, widest_disc_deg);
@@ -170,26 +205,29 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   double brightest = 0; // over light that is spread evenly
   for (const Target& target : targets) brightest = std::max(brightest, *std::max_element(target.begin(), target.end()));
   brightest *= static_cast<double>(layout.cell_count());
-  const glm::dvec3 falls = light_ray(layout, {0, 0, layout.thickness}).direction;
-  preset::Preset view; // the engine that renders is the default
-  view.description = (preset.name.empty() ? "The object" : preset.name) + " as glass over its receivers" +
+  glm::dvec3 falls = light_ray(layout, {0, 0, layout.entry()}).direction;
+  if (layout.is_mirror()) falls.z = -falls.z; // it is folded
+  preset::Preset view;                        // the engine that renders is the default
+  view.description = (preset.name.empty() ? "The object" : preset.name) +
+                     (layout.is_mirror() ? " as a mirror" : " as glass") + " over its receivers" +
                      otherwise(layout, settings(preset));
   view.unit = preset::Preset::Unit::mm;
-  view.white = irradiance * -falls.z * luminous_part * reflectance / glm::pi<double>() * brightest;
+  view.white = irradiance * std::abs(falls.z) * luminous_part * reflectance / glm::pi<double>() * brightest;
   view.stop.seconds = 60;
   preset::Scene& scene = view.scene;
   scene.camera = camera(layout, falls);
-  scene.materials["glass"].type = preset::Material::Type::dielectric;
-  if (layout.spectrum)
-    scene.materials["glass"].dispersion = dispersion_of(preset);
-  else
-    scene.materials["glass"].dispersion.n = layout.n;
   scene.materials["receiver"].reflectance.value = reflectance;
-  scene.materials["ground"].reflectance.value = ground_reflectance;
-  scene.objects.push_back(ground(layout));
+  if (layout.is_mirror())
+    scene.materials["mirror"].type = preset::Material::Type::mirror;
+  else {
+    scene.materials["glass"] = glass(layout, preset);
+    scene.materials["ground"].reflectance.value = ground_reflectance;
+    scene.objects.push_back(ground(layout));
+  }
   for (std::size_t j = 0; j < layout.distances.size(); ++j) {
     scene.objects.push_back(receiver_at(layout, j));
     scene.objects.push_back(object_over(layout, j));
+    if (layout.is_mirror()) continue; // what passes it falls on the receivers' backs
     for (preset::Object& strip : mask(layout, j, falls)) scene.objects.push_back(std::move(strip));
   }
   preset::Light sun;
@@ -201,7 +239,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   scene.lights.push_back(sun);
   scene.environment.emplace(); // what glass reflects
   scene.environment->type = preset::Environment::Type::constant;
-  scene.environment->radiance = 0.3 * view.white.value();
+  scene.environment->radiance = (layout.is_mirror() ? 0.05 : 0.3) * view.white.value(); // no ground hides a mirror's
   return preset::to_json(view) + "\n";
 }
 

@@ -47,7 +47,9 @@ std::uint32_t part_step(int parts) {
 /// `l` has the light as that of all.
 shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
   const auto number = [](double value) { return static_cast<float>(value); };
-  return {.direction = four(light_ray(l, {0, 0, l.thickness}).direction),
+  // The rays of a mirror begin below all of its relief.
+  const double before = l.is_mirror() ? l.thickness + glm::length(l.size) : 1e-3 * l.thickness;
+  return {.direction = four(light_ray(l, {0, 0, l.entry()}).direction),
           .lamp = four(l.light.lamp.value_or(glm::dvec3(0))),
           .lamp_weight = l.light.lamp ? number(lamp_weight(l)) : 0,
           .n = number(l.n),
@@ -57,7 +59,8 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .size_y = number(l.size.y),
           .facet_x = number(l.facet().x),
           .facet_y = number(l.facet().y),
-          .thickness = number(l.thickness),
+          .entry = number(l.entry()),
+          .before = number(before),
           .receiver_x = number(l.receiver.x),
           .receiver_y = number(l.receiver.y),
           .cell_x = number(l.cell().x),

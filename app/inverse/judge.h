@@ -33,7 +33,8 @@ struct Ray {
 };
 
 /// Follows rays that start in front of the object. Light is refracted, less Fresnel's reflectance; total reflection is
-/// followed. The object's sides are black: a frame holds them, or a saw has left them rough.
+/// followed. A mirror, n < 0, sends back all light. The object's sides are black: a frame holds them, or a saw has left
+/// them rough.
 std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, double n, const std::vector<Ray>& rays);
 
 /// The parts of a solid that kernels need.

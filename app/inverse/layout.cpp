@@ -20,8 +20,8 @@ double most_relief(const Layout& layout) {
   if (layout.light.lamp)
     for (const glm::dvec2& corner : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)})
       tilt = std::max(tilt, glm::length(incoming_at(layout, corner * layout.size / 2.0).sines));
-  const double bent =
-      std::atan(glm::length(facet_gradient({usable_slope(layout.n), 0}, layout.n))) + std::asin(tilt / layout.n);
+  const double bent = std::atan(glm::length(facet_gradient({usable_slope(layout), 0}, layout.n))) +
+                      std::asin(tilt / std::abs(layout.n));
   constexpr double upright = 1.5; // radians, 86 degrees
   return std::min(std::tan(std::min(bent, upright)), layout.steepest) * glm::length(layout.facet()) / 2;
 }
@@ -36,8 +36,7 @@ double least_turn(const Layout& layout, const glm::dvec2& to, double distance) {
     for (const glm::dvec2& from :
          {middle, glm::clamp(to, -(layout.size - layout.facet()) / 2.0, (layout.size - layout.facet()) / 2.0)}) {
       const glm::dvec2 sines = layout.light.facets ? incoming_at(layout, from).sines : glm::dvec2(0);
-      closest =
-          std::max(closest, glm::dot(light_inside(sines, layout.n), direction_of((to - from) / distance)) / layout.n);
+      closest = std::max(closest, glm::dot(unturned(sines, layout.n), direction_of((to - from) / distance)));
     }
   }
   return closest > 0 ? std::sqrt(std::max(0.0, 1 - closest * closest)) / closest
@@ -196,8 +195,8 @@ Layout make_layout(const preset::Preset& preset) {
   const glm::ivec2 facets(s.facets[0], s.facets[1]);
   const Refraction refraction = make_refraction(preset);
   const bool lens = s.method == Settings::Method::lens; // its facets lean on as they rise; forecast.h has its limits
-  const double band = band_of(s, own),
-               steepest = lens ? any_steepness : 2 * band / glm::length(size / glm::dvec2(facets));
+  const double band = band_of(s, own), most = s.kind == Settings::Kind::mirror ? steepest_mirror : any_steepness,
+               steepest = lens ? most : std::min(most, 2 * band / glm::length(size / glm::dvec2(facets)));
   Layout l{.size = size,
            .round = s.outline == Settings::Outline::round,
            .thickness = s.thickness_mm,
@@ -240,7 +239,7 @@ double usable_slope(const Layout& layout) {
 }
 
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset) {
-  const double limit = layout.light.facets ? usable_slope(layout.n) : usable_slope(layout);
+  const double limit = layout.light.facets && !layout.is_mirror() ? usable_slope(layout.n) : usable_slope(layout);
   const std::string limits = limit < usable_slope(layout.n)
                                  ? "the constraints on the facets let it have a slope of"
                                  : fmt::format("an index of {:.4g} bends it by a slope of", layout.n);
@@ -264,7 +263,8 @@ void check_reach(const Layout& layout, const std::vector<Target>& targets, const
             ? fmt::format(
                   "choose a distance of at least {:.4g} mm, a larger object, or a smaller receiver_mm or offset_mm",
                   far)
-            : "choose an index farther from 1, or light that is tilted less");
+        : layout.is_mirror() ? "choose light that is tilted less"
+                             : "choose an index farther from 1, or light that is tilted less");
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at z
 // = -distance, with their middles on the z axis but for an offset. y is up, and row 0 at the top, as seen along the
-// light.
+// light. A mirror has a flat back at z = thickness, and its light, which comes from below, is folded at z = 0: a lamp
+// that is written down at z stands at -z (bending.h).
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
@@ -53,7 +54,7 @@ struct Layout {
   bool round = false;        ///< whether the object is the ellipse within this size
   double thickness = 10;
   glm::ivec2 facets{128, 128};
-  double n = 1.5;                   ///< Refraction::n
+  double n = 1.5;                   ///< Refraction::n; mirror_index: a mirror
   std::optional<Spectrum> spectrum; ///< Refraction::spectrum
   glm::dvec2 receiver{100, 100};    ///< size of every receiver
   glm::ivec2 cells{64, 64};         ///< cells of a receiver, across and down
@@ -82,6 +83,9 @@ struct Layout {
   Illumination& numbered(std::size_t index) { return index == 0 ? light : own_lights[index - 1]; }
   const Illumination& light_on(std::size_t receiver_index) const { return numbered(light_index(receiver_index)); }
 
+  bool is_mirror() const { return n < 0; }
+  /// z of where light comes in: the front, or z = 0 of a mirror.
+  double entry() const { return is_mirror() ? 0 : thickness; }
   /// Whether p is outside a round object's outline.
   bool is_beside(const glm::dvec2& p) const { return round && glm::length(p / size) > 0.5; }
   /// Whether light has a width, or many wavelengths.

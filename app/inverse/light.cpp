@@ -27,19 +27,20 @@ struct LampWay {
   double r(double q) const { return q * (a / std::sqrt(1 - q * q) + b / std::sqrt(n * n - q * q)); }
   double change(double q) const { return a / std::pow(1 - q * q, 1.5) + b * n * n / std::pow(n * n - q * q, 1.5); }
   double sine(double at) const {
-    return last_good(0.0, std::min(1.0, n), 60, [&](double q) { return r(q) < at; });
+    return last_good(0.0, std::min(1.0, std::abs(n)), 60, [&](double q) { return r(q) < at; });
   }
 };
 
 /// The part of a facet whose light comes through the front, not through a side.
 double through_front(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& sines) {
+  if (layout.is_mirror()) return layout.round ? part_within(layout, middle, layout.facet()) : 1;
   const glm::dvec2 from = middle + layout.thickness / light_inside(sines, layout.n).z * sines;
   return part_within(layout, from, layout.facet()) * (layout.round ? part_within(layout, middle, layout.facet()) : 1);
 }
 
 Incoming from_lamp(const Layout& layout, const glm::dvec2& middle) {
   const glm::dvec2 to = middle - glm::dvec2(*layout.light.lamp);
-  const LampWay way{layout.light.lamp->z - layout.thickness, layout.thickness, layout.n};
+  const LampWay way{layout.light.lamp->z - layout.entry(), layout.entry(), layout.n};
   const double r = glm::length(to), q = way.sine(r), radial = 1 / way.change(q), around = r > 0 ? q / r : radial;
   const glm::dvec2 e = r > 0 ? to / r : glm::dvec2(1, 0);
   Incoming in;
@@ -55,7 +56,7 @@ double solid_angle(double x, double y, double z) { return std::atan(x * y / (z *
 
 double solid_angle_of_front(const Layout& layout) {
   const glm::dvec2 low = -layout.size / 2.0 - glm::dvec2(*layout.light.lamp), high = low + layout.size;
-  const double z = layout.light.lamp->z - layout.thickness;
+  const double z = layout.light.lamp->z - layout.entry();
   if (!layout.round)
     return solid_angle(high.x, high.y, z) - solid_angle(low.x, high.y, z) - solid_angle(high.x, low.y, z) +
            solid_angle(low.x, low.y, z);
@@ -112,7 +113,9 @@ glm::dvec2 sines_of_sun(const Light& light, const Settings& s, const Location& w
                                 light.place.hour, at.azimuth_deg, at.elevation_deg, glm::degrees(std::asin(-facing))),
                     "expected an hour at which it shines on the front",
                     "choose another hour, front_azimuth_deg or front_elevation_deg");
-  return -glm::dvec2(glm::dot(sun, glm::cross(y, z)), glm::dot(sun, y));
+  const glm::dvec3 x =
+      s.kind == Settings::Kind::mirror ? glm::cross(z, y) : glm::cross(y, z); // z of a mirror is its back
+  return -glm::dvec2(glm::dot(sun, x), glm::dot(sun, y));
 }
 
 Layout with_lamp(Layout layout, const glm::dvec3& middle, double further = 0) {
@@ -122,7 +125,7 @@ Layout with_lamp(Layout layout, const glm::dvec3& middle, double further = 0) {
 
 Layout tilted(const Layout& layout, const Light& light, const Location& where) {
   if (light.tilt_deg == 0) return layout; // light straight on casts no shadow, whatever a facet can do with it
-  const double most = glm::degrees(std::asin(std::min(1.0, layout.n)));
+  const double most = glm::degrees(std::asin(std::min(1.0, std::abs(layout.n))));
   if (std::abs(light.tilt_deg) >= most)
     throw bad_input(where, fmt::format("is {} degrees, and light would not enter through the front", light.tilt_deg),
                     fmt::format("expected less than {:.4g}", most));
@@ -143,15 +146,15 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& whe
     throw bad_input(where / "distance_mm",
                     fmt::format("is {} mm, and the light would stand behind the front", light.distance_mm),
                     "expected more than 0 mm");
-  const glm::dvec3 at(light.offset_mm[0], light.offset_mm[1], layout.thickness + light.distance_mm);
+  const glm::dvec3 at(light.offset_mm[0], light.offset_mm[1], layout.entry() + light.distance_mm);
   Lamp lamp{at, {}};
   if (light.type == Light::Type::area) lamp = flat_lamp(light, at);
-  if (light.type == Light::Type::mesh) lamp = mesh_lamp(light, at, layout.thickness, where);
+  if (light.type == Light::Type::mesh) lamp = mesh_lamp(light, at, layout.entry(), where);
   const auto good = [&](double distance) {
     return worst_shadow(with_lamp(layout, lamp.middle, distance - light.distance_mm)) <= most_shadow;
   };
   if (const double worst = worst_shadow(with_lamp(layout, lamp.middle)); worst > most_shadow) {
-    double far = light.distance_mm + lamp.middle.z - layout.thickness;
+    double far = light.distance_mm + lamp.middle.z - layout.entry();
     while (!good(far) && far < 1e9) far *= 2;
     throw bad_input(where / "distance_mm",
                     fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, {}",
@@ -162,9 +165,9 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Location& whe
   }
   Layout lit = with_lamp(layout, lamp.middle);
   if (!lamp.places.empty()) {
-    lit.light.lamp_covariance = points_of_places(lamp, layout.thickness, 1).left;
-    lit.light.points = points_of_places(lamp, layout.thickness, LightPoints::most);
-    lit.light.few_points = points_of_places(lamp, layout.thickness, LightPoints::few);
+    lit.light.lamp_covariance = points_of_places(lamp, layout.entry(), 1).left;
+    lit.light.points = points_of_places(lamp, layout.entry(), LightPoints::most);
+    lit.light.few_points = points_of_places(lamp, layout.entry(), LightPoints::few);
   }
   lit.light.lamp_places = std::move(lamp.places);
   return lit;
@@ -181,7 +184,8 @@ Incoming incoming_at(const Layout& layout, const glm::dvec2& middle) {
       facet_gradient(nearest_reachable((layout.offset(layout.distances.size() - 1) - middle) / layout.distances.back(),
                                        layout.n, in.sines, layout.steepest),
                      layout.n, in.sines);
-  in.power *= (1 - optics::fresnel_reflectance(cosine, 1, layout.n)) * through_front(layout, middle, in.sines);
+  if (!layout.is_mirror()) in.power *= 1 - optics::fresnel_reflectance(cosine, 1, layout.n);
+  in.power *= through_front(layout, middle, in.sines);
   return in;
 }
 
@@ -280,7 +284,7 @@ LitFacet lit_facet(const Layout& layout, std::size_t facet, const glm::dvec2& sl
   const double square = 1 - layout.n * layout.n + along * along;
   const double out = light_inside(lit.in.sines, layout.n).z +
                      (along - std::sqrt(std::max(square, 0.0))) / glm::length(glm::dvec3(lit.gradient, -1));
-  lit.goes = along > 0 && square > 0 && out < 0; // as slope_behind of kernels/inverse/footprint.h
+  lit.goes = along * layout.n > 0 && square > 0 && out < 0; // as slope_behind of kernels/inverse/footprint.h
   return lit;
 }
 
@@ -336,6 +340,20 @@ LightRay light_ray(const Layout& layout, const glm::dvec3& front) {
   const glm::dvec3 way = front - *layout.light.lamp;
   const double length = glm::length(way), angle = -way.z / (length * length * length); // that a square mm takes
   return {way / length, angle * lamp_weight(layout)};
+}
+
+double shaded_part(const Layout& layout, std::size_t receiver) {
+  if (!layout.is_mirror()) return 0;
+  const Illumination& light = layout.light_on(receiver);
+  const double distance = layout.distances[receiver];
+  if (light.lamp && light.lamp->z <= distance) return 0; // the lamp stands before it
+  const std::vector<std::size_t> facets = some_facets(layout, 64);
+  const auto is_shaded = [&](std::size_t facet) {
+    const glm::dvec2 sines = light.facets ? (*light.facets)[facet].sines : glm::dvec2(0),
+                     at = layout.middle(facet) - distance * flat_slope(sines);
+    return layout.cell_at(at - layout.offset(receiver)).has_value();
+  };
+  return static_cast<double>(std::ranges::count_if(facets, is_shaded)) / static_cast<double>(facets.size());
 }
 
 double lamp_weight(const Layout& layout) { return layout.size.x * layout.size.y / solid_angle_of_front(layout); }

@@ -43,6 +43,9 @@ Incoming incoming_on(const Layout& layout, const glm::dvec2& p, double height);
 /// The part of a rectangle that lies within the object's outline.
 double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size);
 
+/// The part of a mirror whose light a receiver stops, because it stands between them; 0 of glass.
+double shaded_part(const Layout& layout, std::size_t receiver);
+
 /// Light that falls on a place of the front; `weight` is relative to the mean.
 struct LightRay {
   glm::dvec3 direction{0, 0, -1};

@@ -26,6 +26,9 @@ constexpr double empty_sheet = 0.02, rim = 0.25, rim_width = 0.008;
 /// What is left of red, green and blue after a way as long as the object's longer side.
 constexpr dvec3 tint{0.72, 0.88, 0.84};
 
+/// A mirror's back and sides, and what its face sends on.
+constexpr double back = 0.08, mirrors = 0.9;
+
 /// A dark room: what is seen beside the glass.
 dvec3 backdrop(const dvec3& d) {
   return glm::mix(dvec3(0.012, 0.013, 0.016), dvec3(0.03, 0.035, 0.045), 0.5 + 0.5 * d.z);
@@ -55,15 +58,21 @@ public:
     const dvec3 beside = backdrop(d) + sheets(from, d, without_end);
     if (!(enter < leave)) return beside;
     dvec3 at = from + enter * d, out(0);
+    bool is_face = false;
     if (at.z < surface(at).z) { // still in the air below the facets
       const auto met = way_from_below(at, d, leave - enter);
       if (!met) return beside;
       at += *met * d;
       out = surface(at).normal;
+      is_face = true;
     } else if (enter == 0)
-      return inside(from, d, dvec3(1));
+      return l_.is_mirror() ? dvec3(back) : inside(from, d, dvec3(1));
     else
       out = first == enter ? dvec3(0, 0, 1) : side_normal(at);
+    if (l_.is_mirror()) {
+      const dvec3 before = sheets(from, d, glm::distance(from, at)), away = glm::reflect(d, out);
+      return before + (is_face ? mirrors * (room(away) + sheets(at, away, without_end)) : dvec3(back));
+    }
     const double mirrored = optics::fresnel_reflectance(std::clamp(-glm::dot(d, out), 0.0, 1.0), 1, l_.n);
     return sheets(from, d, glm::distance(from, at)) + mirrored * room(glm::reflect(d, out)) +
            inside(at, glm::refract(d, out, 1 / l_.n), dvec3(1 - mirrored));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object while it is designed, as the window shows it: glass over its receivers, which are sheets of light. It is
-// one path a pixel, no rendering: walls between facets are not drawn, and no receiver hides another.
+// The object while it is designed, as the window shows it: glass, or a mirror, over its receivers, which are sheets of
+// light. It is one path a pixel, no rendering: walls between facets are not drawn, and no receiver hides another.
 #pragma once
 #include "inverse/layout.h"
 #include "job/job.h"

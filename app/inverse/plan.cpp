@@ -7,6 +7,7 @@
 #include "inverse/diffraction.h"
 #include "inverse/facets/smooth_solid.h"
 #include "inverse/lens/lens.h"
+#include "inverse/light.h"
 #include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
@@ -123,6 +124,11 @@ std::vector<std::string> notes_of(const preset::Preset& preset, const Design& de
         "fewer cells",
         l.facet().x, l.facet().y, l.cell().x, l.cell().y,
         s.method == Settings::Method::lens ? "even grey shows them as a pattern" : "the pictures become soft"));
+  for (std::size_t j = 0; j < l.distances.size(); ++j)
+    if (const double part = shaded_part(l, j); part > 0)
+      notes.push_back(fmt::format("receiver {} stands in the light of {:.3g} % of the mirror, which the judge does not "
+                                  "know; choose a larger tilt_deg, or give the receiver or the lamp an offset_mm",
+                                  j + 1, 100 * part));
   std::ranges::move(picture_notes(s, l, design.targets, design.best()), std::back_inserter(notes));
   std::ranges::move(workshop_notes(s, l), std::back_inserter(notes));
   if (s.method == Settings::Method::lens)

@@ -78,8 +78,10 @@ std::string begun(const glm::dvec2& content, const std::string& name, const std:
 std::string object_page(const Layout& layout, const std::string& name) {
   const glm::dvec2 middle = middle_of(layout.size);
   return begun(layout.size, name,
-               fmt::format("The object, {:.6g} x {:.6g} mm, seen along the light:", layout.size.x, layout.size.y),
-               "its flat front, where light enters, is on your side; the arrow is up.") +
+               fmt::format("The object, {:.6g} x {:.6g} mm, seen along the light{}:", layout.size.x, layout.size.y,
+                           layout.is_mirror() ? " that it sends" : ""),
+               layout.is_mirror() ? "its flat back is on your side, the mirror on the other; the arrow is up."
+                                  : "its flat front, where light enters, is on your side; the arrow is up.") +
          object_outline(layout, middle, solid_line) + marks(middle, layout.size, solid_line) + "</svg>\n";
 }
 

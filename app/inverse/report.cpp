@@ -130,6 +130,7 @@ void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& soli
 }
 
 std::string material_of(const Settings& s, double n) {
+  if (s.kind == Settings::Kind::mirror) return "a mirror";
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
   return fmt::format("{}index of refraction {:.6g} {}", name, n,
                      s.light.spectrum ? "in the mean over the light's luminance"

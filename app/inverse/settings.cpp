@@ -152,6 +152,13 @@ void check(const preset::Preset& preset, const Where& where) {
   if (s.light.spectrum && s.band_nm > 0)
     refuse("band_nm", fmt::format("is {} nm, and light.spectrum has the light's wavelengths", s.band_nm),
            "expected one of both", "remove it");
+  if (s.kind == Settings::Kind::mirror) {
+    if (s.index != preset::Dispersion{})
+      refuse("index", "is of glass, and \"kind\" is \"mirror\"", "expected none", "remove it");
+    if (s.band_nm > 0)
+      refuse("band_nm", fmt::format("is {} nm, and a mirror sends all wavelengths alike", s.band_nm), "expected 0",
+             "remove it");
+  }
   const double first_nm = s.wavelength_nm - s.band_nm / 2, last_nm = s.wavelength_nm + s.band_nm / 2;
   if (first_nm < 380 || last_nm > 780)
     refuse("band_nm", fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, first_nm, last_nm),
@@ -178,7 +185,7 @@ const preset::SettingsType& settings_type() {
                                                  "reference",
                                                  "stop.error"};
   static const preset::SettingsType type = preset::settings_type<Settings>(
-      "inverse", "One refractive object that casts several pictures at several distances.", check, without);
+      "inverse", "One object of glass, or a mirror, that casts several pictures at several distances.", check, without);
   return type;
 }
 

@@ -91,9 +91,11 @@ inline bool is_same_but_spectrum(Light a, const Light& b) {
 }
 
 struct Settings {
+  enum class Kind { glass, mirror };
   enum class Method { assign, thesis, lens };
   enum class Heights { flat, free };
   enum class Outline { rectangle, round };
+  Kind kind = Kind::glass; ///< what turns the light: see bending.h
   Method method = Method::assign;
   std::array<double, 2> size_mm{100, 100};  ///< the object's width and height
   Outline outline = Outline::rectangle;     ///< the object's outline within size_mm

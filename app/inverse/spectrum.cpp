@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/spectrum.h"
 
+#include "inverse/bending.h"
 #include "inverse/settings.h"
 #include "optics/colour.h"
 #include "scatter/spectra.h"
@@ -19,12 +20,14 @@ constexpr int band_samples = 400;
 double weight_of(const LightPart& part) { return part.xyz.x + part.xyz.y + part.xyz.z; }
 
 struct Index {
+  bool is_mirror;
   optics::DispersionCurve curve;
   optics::Extrapolation outside;
   Location where;
   const char* remedy;
 
   double at(double nm) const {
+    if (is_mirror) return mirror_index;
     const optics::IndexSample sample = curve.sample(nm, outside);
     if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", nm), remedy);
     if (std::abs(*sample.n - 1) < 1e-3 * (1 - 1e-9))
@@ -84,8 +87,8 @@ Refraction make_refraction(const preset::Preset& preset) {
   const Location own = Location(preset.source) / "inverse";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const bool is_coloured = s.light.spectrum.has_value();
-  const Index index{scatter::make_curve(s.index, finder, own / "index"), scatter::outside_policy(s.index.outside),
-                    own / "index",
+  const Index index{s.kind == Settings::Kind::mirror, scatter::make_curve(s.index, finder, own / "index"),
+                    scatter::outside_policy(s.index.outside), own / "index",
                     is_coloured ? "expected one for all wavelengths of light.spectrum"
                                 : "expected another wavelength_nm or a narrower band_nm"};
   const std::vector<LightPart> parts =

@@ -9,8 +9,12 @@
 #define USABLE_PART 0.95f
 
 static inline float3 direction_of(float2 slope) { return (float3)(slope, -1.0f) * rsqrt(1.0f + dot(slope, slope)); }
-static inline float3 light_inside(float2 sines, float n) { return (float3)(sines, -sqrt(n * n - dot(sines, sines))); }
-static inline float2 slope_inside(float2 sines, float n) { return sines * rsqrt(n * n - dot(sines, sines)); }
+static inline float3 light_inside(float2 sines, float n) {
+  return (float3)(sines, -copysign(sqrt(n * n - dot(sines, sines)), n));
+}
+static inline float2 slope_inside(float2 sines, float n) {
+  return sines * copysign(rsqrt(n * n - dot(sines, sines)), n);
+}
 
 static inline float2 facet_gradient(float2 slope, float n, float2 sines) {
   const float3 along = light_inside(sines, n) - direction_of(slope);
@@ -22,11 +26,13 @@ static inline float3 facet_normal(float2 slope, float n, float2 sines) {
   const float3 in = light_inside(sines, n), out = direction_of(slope);
   const float3 normal = n < 1.0f ? out - in : in - out;
   const float square = dot(normal, normal);
-  return square > 0.0f && dot(normal, in) > 0.0f && dot(normal, out) > 0.0f ? normal * rsqrt(square) : (float3)(0.0f);
+  const bool turns = square > 0.0f && n * dot(normal, in) > 0.0f && dot(normal, out) > 0.0f;
+  return turns ? normal * rsqrt(square) : (float3)(0.0f);
 }
 
-// 1 minus Fresnel's reflectance.
+// 1 minus Fresnel's reflectance; 1 for a mirror.
 static inline float transmitted(float2 slope, float n, float2 sines) {
+  if (n < 0.0f) return 1.0f;
   const float3 normal = facet_normal(slope, n, sines);
   const float cos_i = fmin(1.0f, dot(normal, light_inside(sines, n)) / n);
   if (!(cos_i > 0.0f)) return 0.0f;
@@ -35,13 +41,15 @@ static inline float transmitted(float2 slope, float n, float2 sines) {
 }
 
 static inline bool is_reachable(float2 slope, float n, float2 sines, float steepest) {
-  const float n2 = n > 1.0f ? n * n : 1.0f / (n * n), most2 = USABLE_PART * USABLE_PART * (n2 - 1.0f);
+  if (n > 0.0f) { // a mirror's steepness is its only limit
+    const float n2 = n > 1.0f ? n * n : 1.0f / (n * n), most2 = USABLE_PART * USABLE_PART * (n2 - 1.0f);
 #if NEPHROID_INCOMING
-  const float cosine = dot(light_inside(sines, n), direction_of(slope)) / n;
-  if (cosine <= 0.0f || cosine * cosine * (1.0f + most2) < 1.0f) return false;
+    const float cosine = dot(light_inside(sines, n), direction_of(slope)) / n;
+    if (cosine <= 0.0f || cosine * cosine * (1.0f + most2) < 1.0f) return false;
 #else
-  if (dot(slope, slope) > most2) return false;
+    if (dot(slope, slope) > most2) return false;
 #endif
+  }
   if (steepest == INFINITY) return true;
   const float2 g = facet_gradient(slope, n, sines);
   return dot(g, g) <= steepest * steepest;

@@ -88,20 +88,21 @@ typedef struct {
 #define RAY_OUTCOMES 4
 #define RAY_OUTCOME_SUMS 256
 
-// The judge's light: what falls on the front, and the screens behind the object.
+// The judge's light: what falls on the front, or on a mirror, n < 0, and the screens.
 typedef struct {
   float4 direction; // for parallel light
   float4 lamp;
   float lamp_weight; // weight of a ray over the cosine and one over the squared distance; 0: parallel light
   float n, sun_radius, scatter;
-  float size_x, size_y, facet_x, facet_y, thickness;
+  float size_x, size_y, facet_x, facet_y;
+  float entry, before; // z of where light falls in; how far before it rays begin
   float receiver_x, receiver_y, cell_x, cell_y;
   int columns, along; // facets of a row; rays along one side of a facet
   int cells_x, cells_y, screens;
   uint part_step; // from a ray's part of the spectrum to the next one's; 0: one index
   int is_round; // 1: light falls on the ellipse within the front
   uint lamp_places; // how many points stand for it; 0: it is one itself
-  int padding[3];
+  int padding[2];
 } DeviceFront;
 
 // How a ray leaves the object.

@@ -137,7 +137,8 @@ static inline LitPart lit_part(global const DeviceLayout* layout, const Facet* f
                                float2 g) {
   const float ratio = layout->facet_y / layout->facet_x, in = 1.0f + dot(inside, g), out = 1.0f + dot(slope, g);
   const int2 at = (int2)(facet->column, facet->row); // rows count downwards
-  const int2 from = (int2)(inside.x > 0.0f ? -1 : 1, inside.y > 0.0f ? -1 : 1),
+  const float2 way = layout->n * inside; // light before a mirror comes from the other side
+  const int2 from = (int2)(way.x > 0.0f ? -1 : 1, way.y > 0.0f ? -1 : 1),
              to = (int2)(slope.x > 0.0f ? 1 : -1, slope.y > 0.0f ? 1 : -1);
   const float2 shadow =
       (float2)(hidden_by(layout, facet, at + (int2)(from.x, 0), inside.x, g.x, g.y, 0, ratio, in),
@@ -227,7 +228,7 @@ static inline float3 slope_behind(float2 g, float n, float2 sines) {
   const float3 in = light_inside(sines, n), normal = (float3)(g, -1.0f) * rsqrt(1.0f + dot(g, g));
   const float along = dot(in, normal), square = 1.0f - n * n + along * along;
   const float3 out = in - (along - sqrt(fmax(0.0f, square))) * normal;
-  return (float3)(out.xy / fmax(-out.z, 1e-3f), along > 0.0f && square > 0.0f && out.z < 0.0f);
+  return (float3)(out.xy / fmax(-out.z, 1e-3f), along * n > 0.0f && square > 0.0f && out.z < 0.0f);
 }
 
 static inline Facet in_light(global const DeviceLayout* layout, const Facet* facet, int light) {

@@ -40,8 +40,8 @@ static inline DeviceWayOut follow(global const float* nodes, global const float*
     const bool enters = dot(surface.xyz, direction) < 0.0f;
     const float3 normal = enters ? surface.xyz : -surface.xyz;
     const float before = enters ? 1.0f : n, behind = enters ? n : 1.0f, cos_i = fmin(1.0f, -dot(normal, direction));
-    const float cos_t = refracted_cosine(cos_i, before / behind);
-    if (cos_t < 0.0f)
+    const float cos_t = refracted_cosine(cos_i, before / behind); // of no use for a mirror, n < 0
+    if (n < 0.0f || cos_t < 0.0f)
       direction = normalize(reflect_about(direction, normal, cos_i));
     else {
       const float reflected = way.part * fresnel_reflectance(cos_i, cos_t, before, behind);
@@ -104,7 +104,7 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   const float2 at = (float2)((float)column + ((float)(ray % along) + random.x) / (float)along,
                              (float)row + ((float)(ray / along) + random.y) / (float)along);
   const float3 place =
-      (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
+      (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.entry);
   if (front.is_round && length(place.xy / (float2)(front.size_x, front.size_y)) > 0.5f) return;
 #if NEPHROID_SPREAD
   const float4 begin = random4(launch.seed, 0u, facet, 4u * launch.turn + 1u, STREAM_JUDGE);
@@ -139,8 +139,8 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
     colour = drawn.yzww;
   }
 #endif
-  const DeviceWayOut out =
-      follow(nodes, blocks, root, normals, n, place - 1e-3f * front.thickness * direction, direction);
+  if (front.n < 0.0f) direction.z = -direction.z; // light before a mirror is folded: app/inverse/layout.h
+  const DeviceWayOut out = follow(nodes, blocks, root, normals, n, place - front.before * direction, direction);
   const float counts = part * colour.y, sent = counts * out.part;
   add_ray_outcome(outcomes, item, RAY_REFLECTED, counts * out.reflected);
   if (!(out.part > 0.0f)) {

@@ -71,16 +71,16 @@ typedef struct {
 // facet_gradient() and slope_behind() of eight; light that is reflected totally goes far beside all receivers.
 static inline EightSlopes gradients(float8 x, float8 y, float n, float2 sines) {
   const float8 out = rsqrt(1.0f + x * x + y * y);
-  const float8 over = 1.0f / (sqrt(n * n - dot(sines, sines)) - out);
+  const float8 over = 1.0f / (copysign(sqrt(n * n - dot(sines, sines)), n) - out);
   const EightSlopes made = {(sines.x - x * out) * over, (sines.y - y * out) * over};
   return made;
 }
 static inline EightSlopes slopes_behind(EightSlopes g, float n, float2 sines) {
-  const float inside = sqrt(n * n - dot(sines, sines));
+  const float inside = copysign(sqrt(n * n - dot(sines, sines)), n);
   const float8 length = rsqrt(1.0f + g.x * g.x + g.y * g.y),
                along = (sines.x * g.x + sines.y * g.y + inside) * length, square = 1.0f - n * n + along * along,
                turn = (along - sqrt(fmax(square, 0.0f))) * length, down = inside - turn;
-  const int8 goes = square > 0.0f && along > 0.0f && down > 0.0f;
+  const int8 goes = square > 0.0f && n * along > 0.0f && down > 0.0f;
   const float8 over = 1.0f / fmax(down, 1e-3f), far = (float8)(1e6f);
   const EightSlopes made = {select(far, (sines.x - turn * g.x) * over, goes),
                             select(far, (sines.y - turn * g.y) * over, goes)};

@@ -247,6 +247,10 @@ def inverse_sundial(s, name):
     s.keep(name, [s.run("sundial", "inverse/sundial") / "image.png"])
 
 
+def inverse_mirror(s, name):
+    s.keep(name, [s.run("mirror", "inverse/mirror") / "image.png"])
+
+
 def films(s, name):
     """Water, a torus and a jelly bunny, each at four moments of a film."""
     shown = [
@@ -405,6 +409,7 @@ MAKERS = {
     "inverse-sets.jpg": inverse_sets,
     "inverse-mitsuba.jpg": inverse_mitsuba,
     "inverse-sundial.png": inverse_sundial,
+    "inverse-mirror.png": inverse_mirror,
     "films.jpg": films,
     "environment-shaded.png": environment_shaded,
     "environment-turning.png": partial(environment_film, film="turning"),

@@ -164,6 +164,7 @@ TEST(OwnLights, DeviceAndHostSendTheSameLight) {
   for (const preset::Overrides& of :
        {preset::Overrides{},
         {"inverse.sun_deg=0.53"},
+        {"inverse.kind=mirror"},
         {sun("12", "inverse.receivers.1.light"), "inverse.front_elevation_deg=37.5", "inverse.cells=[64, 64]"},
         {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=null"},
         {"inverse.light=" + lamp.light(), "inverse.receivers.0.light=" + away.light(), "inverse.scatter_deg=0.3"}}) {
@@ -179,17 +180,19 @@ TEST(OwnLights, DeviceAndHostSendTheSameLight) {
 
 // The search believes what the judge then finds, and each picture is there in its own light alone.
 TEST(OwnLights, EachPictureIsThereInItsOwnLightAlone) {
-  const Layout l = layout_of();
-  const std::vector<Target> targets = ring_and_disc(l);
-  Assignment search(test::shared_context(), l, targets, 1);
-  test::sweep(search, 5);
-  Judge judge(test::shared_context(), l, search.solid(), 1, targets);
-  while (!judge.finished()) judge.advance();
-  const std::vector<Cost> judged = judge.costs(targets);
-  for (const std::size_t j : {0u, 1u}) {
-    EXPECT_NEAR(judged[j].cost, search.costs()[j].cost, 0.1) << j;
-    EXPECT_LT(judged[j].rel_l2, 0.15) << j;
-    EXPECT_GT(cost_of(targets[j], judge.light_under(j, 1 - j), 1).rel_l2, 0.4) << j;
+  for (const char* const kind : {"glass", "mirror"}) {
+    const Layout l = layout_of({std::string("inverse.kind=") + kind});
+    const std::vector<Target> targets = ring_and_disc(l);
+    Assignment search(test::shared_context(), l, targets, 1);
+    test::sweep(search, 5);
+    Judge judge(test::shared_context(), l, search.solid(), 1, targets);
+    while (!judge.finished()) judge.advance();
+    const std::vector<Cost> judged = judge.costs(targets);
+    for (const std::size_t j : {0u, 1u}) {
+      EXPECT_NEAR(judged[j].cost, search.costs()[j].cost, 0.1) << j;
+      EXPECT_LT(judged[j].rel_l2, 0.15) << j;
+      EXPECT_GT(cost_of(targets[j], judge.light_under(j, 1 - j), 1).rel_l2, 0.4) << j;
+    }
   }
 }
 

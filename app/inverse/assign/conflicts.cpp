@@ -69,9 +69,10 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
 std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const {
   const glm::ivec2 cells = layout_.cells, step = (cells + 63) / 64;
   const double distance = layout_.distances[receiver],
-               lamp = layout_.light_on(receiver).lamp ? distance / (layout_.light_on(receiver).lamp->z -
-                                                                    layout_.thickness + layout_.thickness / layout_.n)
-                                                      : 0;
+               lamp =
+                   layout_.light_on(receiver).lamp
+                       ? distance / (layout_.light_on(receiver).lamp->z - layout_.entry() + layout_.entry() / layout_.n)
+                       : 0;
   const auto parts = [&](int axis, int at) { // a beam on the middle of a cell: its first cell, and its part on each
     const double cell = layout_.cell()[axis], width = layout_.facet()[axis] * (1 + lamp) / cell,
                  blur = blur_width(layout_, receiver) / cell;

@@ -32,7 +32,7 @@ std::vector<glm::dvec2> wide(const std::vector<Pair>& pairs) {
 
 /// One over a lamp's distance, as light sees it in the object.
 double spreads(const Layout& l, const Illumination& light) {
-  return light.lamp ? 1 / (light.lamp->z - l.thickness + l.thickness / l.n) : 0;
+  return light.lamp ? 1 / (light.lamp->z - l.entry() + l.entry() / l.n) : 0;
 }
 
 /// Root of the mean variance of a lamp's places along x and y, in millimetres.

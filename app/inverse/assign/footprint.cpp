@@ -53,7 +53,8 @@ LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& insi
   };
   LitPart lit;
   for (int axis = 0; axis < 2; ++axis) {
-    const int from = inside[axis] > 0 ? -1 : 1, towards = slope[axis] > 0 ? 1 : -1;
+    const int from = layout.n * inside[axis] > 0 ? -1 : 1, // light before a mirror comes from the other side
+        towards = slope[axis] > 0 ? 1 : -1;
     const double shadow = hidden(inside, axis, from), stopped = hidden(slope, axis, towards);
     lit.middle[axis] = -(from * shadow + towards * stopped) / 2;
     lit.size[axis] = std::max(0.0, 1 - shadow - stopped);

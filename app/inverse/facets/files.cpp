@@ -108,7 +108,8 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   row("facets", fmt::format("{} x {}", layout.facets.x, layout.facets.y));
   row("smallest facet", fmt::format("{:.4g} x {:.4g} mm, as all of them{}", layout.facet().x, layout.facet().y,
                                     layout.draft > 0 ? ", less what leaning walls take" : ""));
-  row("steepest facet", fmt::format("{:.4g} degrees from the front", solid.steepest_deg));
+  const char* const flat = layout.is_mirror() ? "back" : "front";
+  row("steepest facet", fmt::format("{:.4g} degrees from the {}", solid.steepest_deg, flat));
   row("steepest wall", solid.wall_area > 0 ? wall_angle(solid) : "none");
   row("highest wall", mm(solid.highest_wall));
   row("area of the walls between facets", fmt::format("{:.4g} mm2", solid.wall_area));
@@ -116,14 +117,19 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
     row(fmt::format("a ball of {:.4g} mm radius", *making.tool_radius).c_str(),
         reach_of(layout, solid, *making.tool_radius));
   if (making.layer)
-    row(fmt::format("layers of {:.4g} mm along the front", *making.layer).c_str(), layers_of(solid, *making.layer));
-  page += fmt::format("\nThe front is flat and the light's way in. {} on the other side.\n\n",
+    row(fmt::format("layers of {:.4g} mm along the {}", *making.layer, flat).c_str(), layers_of(solid, *making.layer));
+  page += fmt::format("\n{}. {} on the other side{}.\n\n",
+                      layout.is_mirror() ? "The back is flat" : "The front is flat and the light's way in",
                       solid.wall_area > 0 ? (solid.steepest_wall_deg < 90
                                                  ? "The facets, with walls between them that lean, are"
                                                  : "The facets, with walls between them that stand straight up, are")
-                                          : "The relief is");
-  page += "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the front at the top (+z).\n"
-          "- `facets.json`: a line a facet";
+                                          : "The relief is",
+                      layout.is_mirror() ? ", which is the mirror" : "");
+  fmt::format_to(
+      std::back_inserter(page),
+      "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the {} at the top (+z).\n"
+      "- `facets.json`: a line a facet",
+      flat);
   page += layout.draft > 0 ? ", as if walls stood upright.\n" : ".\n";
   fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n",
                  scale_of(layout), png_scale(layout, solid));

@@ -81,10 +81,12 @@ std::optional<BeamBox> box_of(const inverse::Footprint& print) {
 std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inverse::Layout& layout) {
   const std::size_t facet = inverse::index_at(beam.facet.x, beam.facet.y, layout.facets.x);
   const glm::dvec2 at = layout.middle(facet), inside = inverse::slope_inside(layout.sines_on(facet), layout.n);
-  const glm::dvec2 front = at - inside * (layout.thickness - beam.height),
+  // Light comes from the front, or to a mirror from below.
+  const double from_z = layout.is_mirror() ? -layout.distances.front() / 2 : layout.thickness;
+  const glm::dvec2 from = at - inside * (from_z - beam.height),
                    end = at + beam.slope * (layout.distances.back() + beam.height);
   std::vector<std::vector<preset::Vec3>> lines{
-      {{front.x, front.y, layout.thickness}, {at.x, at.y, beam.height}, {end.x, end.y, -layout.distances.back()}}};
+      {{from.x, from.y, from_z}, {at.x, at.y, beam.height}, {end.x, end.y, -layout.distances.back()}}};
   for (std::size_t j = 0; j < beam.prints.size(); ++j) {
     const auto box = box_of(beam.prints[j]);
     if (!box) continue;
