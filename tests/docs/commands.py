@@ -37,7 +37,7 @@ from documents import Page, help_page  # noqa: E402
 ROOT = Path(__file__).resolve().parents[2]
 CUT = ["--set", "scene.camera.resolution=[64,64]", "--set", "reference=null"]
 CUT_OF_ENGINE = {"spectral": ["--set", "spectral.photons_per_pass=1024"],
-                 "inverse": ["--set", "inverse.facets=[16,16]", "--set", "inverse.cells=[16,16]"],
+                 "inverse": ["--set", "inverse.facets=[16,16]", "--set", "inverse.cells=[32,32]"],
                  "environment": ["--set", "environment.photons=1024", "--set", "environment.resolution=16", "--set",
                                  "environment.spheres=4",
                                  "--set", "environment.lights=6"]}
