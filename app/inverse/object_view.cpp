@@ -26,8 +26,8 @@ constexpr double empty_sheet = 0.02, rim = 0.25, rim_width = 0.008;
 /// What is left of red, green and blue after a way as long as the object's longer side.
 constexpr dvec3 tint{0.72, 0.88, 0.84};
 
-/// A mirror's back and sides, and what its face sends on.
-constexpr double back = 0.08, mirrors = 0.9;
+/// The light of a mirror's back and sides, and what its face reflects.
+constexpr double back = 0.08, face_reflectance = 0.9;
 
 /// A dark room: what is seen beside the glass.
 dvec3 backdrop(const dvec3& d) {
@@ -71,7 +71,7 @@ public:
       out = first == enter ? dvec3(0, 0, 1) : side_normal(at);
     if (l_.is_mirror()) {
       const dvec3 before = sheets(from, d, glm::distance(from, at)), away = glm::reflect(d, out);
-      return before + (is_face ? mirrors * (room(away) + sheets(at, away, without_end)) : dvec3(back));
+      return before + (is_face ? face_reflectance * (room(away) + sheets(at, away, without_end)) : dvec3(back));
     }
     const double mirrored = optics::fresnel_reflectance(std::clamp(-glm::dot(d, out), 0.0, 1.0), 1, l_.n);
     return sheets(from, d, glm::distance(from, at)) + mirrored * room(glm::reflect(d, out)) +

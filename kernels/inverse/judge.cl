@@ -40,8 +40,8 @@ static inline DeviceWayOut follow(global const float* nodes, global const float*
     const bool enters = dot(surface.xyz, direction) < 0.0f;
     const float3 normal = enters ? surface.xyz : -surface.xyz;
     const float before = enters ? 1.0f : n, behind = enters ? n : 1.0f, cos_i = fmin(1.0f, -dot(normal, direction));
-    const float cos_t = refracted_cosine(cos_i, before / behind); // of no use for a mirror, n < 0
-    if (n < 0.0f || cos_t < 0.0f)
+    const float cos_t = n < 0.0f ? -1.0f : refracted_cosine(cos_i, before / behind); // a mirror reflects all
+    if (cos_t < 0.0f)
       direction = normalize(reflect_about(direction, normal, cos_i));
     else {
       const float reflected = way.part * fresnel_reflectance(cos_i, cos_t, before, behind);

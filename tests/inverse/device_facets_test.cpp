@@ -82,8 +82,8 @@ TEST_P(DeviceFacetsTest, SendTheirLightAsTheHostSays) {
   }
 }
 
-// Every seventh facet is turned a little; differences of the host's sum, which the edges of sharp beams make inexact:
-// of blurred ones they are within .015.
+// Every seventh facet is turned a little; differences of the host's sum. Where the edge of a sharp beam meets that of a
+// cell they are inexact: a narrow sun's beams, which have no such edges, are within .005.
 TEST_P(DeviceFacetsTest, KnowTheGradient) {
   const Layout l = layout();
   const std::vector<Target> targets = ring_and_disc(l);
