@@ -240,11 +240,15 @@ preset::Camera view_camera(const preset::Preset& preset) {
   if (camera != untouched) return camera;
   const Settings& s = settings(preset);
   const auto receiver = s.receiver_mm.value_or(s.size_mm);
-  dvec3 high(s.size_mm[0] / 2, s.size_mm[1] / 2, s.thickness_mm);
+  dvec3 high(s.size_mm[0] / 2, s.size_mm[1] / 2, s.thickness_mm),
+      low(-high.x, -high.y, -s.receivers.back().distance_mm);
   for (const Receiver& r : s.receivers)
-    for (int axis = 0; axis < 2; ++axis)
-      high[axis] = std::max(high[axis], std::abs(r.offset_mm[axis]) + receiver[axis] / 2);
-  const dvec3 low(-high.x, -high.y, -s.receivers.back().distance_mm), middle = (low + high) / 2.0;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      low[axis] = std::min(low[axis], r.offset_mm[i] - receiver[i] / 2);
+      high[axis] = std::max(high[axis], r.offset_mm[i] + receiver[i] / 2);
+    }
+  const dvec3 middle = (low + high) / 2.0;
   const double up = glm::radians(28.0), aside = glm::radians(-25.0);
   const dvec3 to_camera(std::sin(aside) * std::cos(up), -std::cos(aside) * std::cos(up), std::sin(up));
   camera.up = {0, 0, 1};
