@@ -259,6 +259,10 @@ inline void describe(preset::Fields& v, Settings& s) {
       "band_nm",
       "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
       s.band_nm, {.unit = "nm", .bounds = within(0, 400)});
+  v.field("diffraction",
+          "Whether facets spread light as slits do, by wavelength times distance over their width; without, light goes "
+          "as rays do. A lens has no edges that would.",
+          s.diffraction);
   v.field("light", "What falls on the front.", s.light);
   v.field(
       "front_azimuth_deg",

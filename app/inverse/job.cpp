@@ -67,7 +67,7 @@ public:
       add_files(snapshot, run);
       add_frames(snapshot, run);
       for (std::size_t j = 0; j < targets_.size(); ++j)
-        if (const double cells = diffraction_cells(settings(preset_), layout_, j); cells > 1)
+        if (const double cells = diffraction_cells(settings(preset_), layout_, j); cells > 1 && !layout_.diffracts)
           snapshot.warnings.push_back(
               fmt::format("picture {} is judged by rays; light is a wave, and spreads each place's over {:.3g} cells",
                           j + 1, cells));

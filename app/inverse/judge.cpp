@@ -2,6 +2,7 @@
 #include "inverse/judge.h"
 
 #include "inverse/bending.h"
+#include "inverse/diffraction.h"
 #include "inverse/light.h"
 #include "inverse/uniform.h"
 
@@ -55,6 +56,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .n = number(l.n),
           .sun_radius = number(l.light.lamp_places.empty() ? l.disc(l.light) : 0),
           .scatter = number(l.scatter),
+          .wavelength = number(l.wavelength),
           .size_x = number(l.size.x),
           .size_y = number(l.size.y),
           .facet_x = number(l.facet().x),
@@ -73,7 +75,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens) {
           .part_step = l.spectrum ? part_step(rays_along(l) * rays_along(l)) : 0,
           .is_round = l.round ? 1 : 0,
           .lamp_places = static_cast<std::uint32_t>(l.light.lamp_places.size()),
-          .padding = {}};
+          .padding = 0};
 }
 
 /// The receivers, then the frames between them.
@@ -115,15 +117,10 @@ Illumination between(const Illumination& a, const Illumination& b, double part) 
   return made;
 }
 
-/// The spectrum's parts as the kernel has them, each over its share of the rays.
-std::vector<shared::float4> parts_of(const Layout& l, int count) {
-  std::vector<shared::float4> parts;
-  if (l.spectrum)
-    for (const LightPart& part : equal_parts(l.spectrum->parts, static_cast<std::size_t>(count))) {
-      const glm::dvec3 xyz = part.xyz * static_cast<double>(count);
-      parts.push_back(four({part.n, xyz.x, xyz.y}, xyz.z));
-    }
-  return parts;
+compute::Defines judge_defines(const Layout& l) {
+  return {{"NEPHROID_SPREAD", l.blurs() ? "1" : "0"},
+          {"NEPHROID_DIFFRACTION", l.diffracts ? "1" : "0"},
+          {"NEPHROID_CHANNELS", l.coloured() ? "3" : "1"}};
 }
 
 /// RankContext::all_reduced_sum gives it again.
@@ -142,21 +139,21 @@ double noise_of(double whole, double a, double b) {
 
 } // namespace
 
-SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured) {
+SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, const compute::Defines& more) {
   scene::Bvh bvh = scene::build_bvh(solid.mesh);
   nodes = compute::Buffer(context, "solid's tree", std::exchange(bvh.nodes, {})); // a large one is in memory once
   blocks = compute::Buffer(context, "solid's triangles", std::exchange(bvh.blocks, {}));
   normals = compute::Buffer(context, "solid's normals", normals_of(solid));
   root = bvh.root;
   compute::Defines defines = scene::tree_defines(bvh);
-  defines.insert_or_assign("NEPHROID_SPREAD", std::string(1, spreads ? '1' : '0'));
-  defines.insert_or_assign("NEPHROID_CHANNELS", std::string(1, coloured ? '3' : '1'));
+  defines.insert(more.begin(), more.end());
   program.emplace(context, "inverse/judge.cl", defines);
 }
 
 std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, double n,
                            const std::vector<Ray>& rays) {
-  SolidOnDevice on_device(context, solid, false, false);
+  SolidOnDevice on_device(context, solid,
+                          {{"NEPHROID_SPREAD", "0"}, {"NEPHROID_DIFFRACTION", "0"}, {"NEPHROID_CHANNELS", "1"}});
   std::vector<shared::float4> from, directions;
   for (const Ray& ray : rays) {
     from.push_back(four(ray.from));
@@ -190,11 +187,24 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
 Judge::Judge(const mpi::RankContext& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
              const std::vector<Target>& targets)
     : context_(context), layout_(layout), targets_(targets),
-      solid_(context, solid, layout.blurs(), layout.coloured()), seed_{static_cast<std::uint32_t>(seed),
-                                                                       static_cast<std::uint32_t>(seed >> 32)} {
+      solid_(context, solid, judge_defines(layout)), seed_{static_cast<std::uint32_t>(seed),
+                                                           static_cast<std::uint32_t>(seed >> 32)} {
   screens_ = screens_of(layout);
   along_ = rays_along(layout);
-  parts_ = compute::Buffer(context, "parts of the spectrum", parts_of(layout, along_ * along_));
+  std::vector<shared::float4> parts;
+  std::vector<float> wavelengths;
+  if (layout.spectrum) {
+    const int count = along_ * along_;
+    for (const LightPart& part : equal_parts(layout.spectrum->parts, static_cast<std::size_t>(count))) {
+      const glm::dvec3 xyz = part.xyz * static_cast<double>(count); // each has its share of the rays
+      parts.push_back(four({part.n, xyz.x, xyz.y}, xyz.z));
+      wavelengths.push_back(static_cast<float>(part.nm * mm_a_nm));
+    }
+  }
+  parts_ = compute::Buffer(context, "parts of the spectrum", parts);
+  quantiles_ = compute::Buffer(context, "a slit's light",
+                               layout.diffracts ? slit_quantiles(SLIT_QUANTILES) : std::vector<float>());
+  wavelengths_ = compute::Buffer(context, "their wavelengths", wavelengths);
   judge_ = solid_.program->kernel("judge");
   light_.assign(screens_.size(), std::vector<double>(layout.cell_count()));
   halves_.fill(light_);
@@ -279,6 +289,8 @@ void Judge::judge_rows(OneLight& light, std::uint32_t first, std::uint32_t count
               {"normals", solid_.normals},
               {"front", light.front},
               {"parts", parts_},
+              {"wavelengths", wavelengths_},
+              {"quantiles", quantiles_},
               {"lamp_places", light.lamp_places},
               {"screens", light.receivers},
               {"launch", launch},

@@ -40,8 +40,9 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
 /// The parts of a solid that kernels need.
 struct SolidOnDevice {
   SolidOnDevice() = default;
-  /// `spreads`: the light has a width or many wavelengths. Throws failed where the device has not enough memory.
-  SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured);
+  /// `more`: what rays do besides, as defines of inverse/judge.cl. Throws failed where the device has not enough
+  /// memory.
+  SolidOnDevice(const compute::Context& context, const Solid& solid, const compute::Defines& more);
 
   compute::Buffer<float> nodes, blocks;
   compute::Buffer<shared::float4> normals; ///< a triangle's unit normal, and its part as w
@@ -112,6 +113,8 @@ private:
   SolidOnDevice solid_;
   shared::uint2 seed_;
   compute::Buffer<shared::float4> parts_;       ///< the spectrum's parts: index and XYZ
+  compute::Buffer<float> wavelengths_;          ///< of the parts, in mm
+  compute::Buffer<float> quantiles_;            ///< slit_quantiles()
   std::vector<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
   std::vector<OneLight> lights_;                ///< the receivers' lights, then those of frames in lights between them
   std::size_t first_light_ = 0;                 ///< number of the first light that some receiver has, 0 or 1

@@ -188,6 +188,14 @@ Settings with_found_meshes(const preset::Preset& preset, const Location& own) {
 
 } // namespace
 
+glm::dvec2 Layout::wave_width() const {
+  // Of all boxes this one is closest to sinc^2 in the mean of squares.
+  constexpr double box = 1.2, least_cells = 0.25;
+  if (!diffracts) return glm::dvec2(0);
+  const glm::dvec2 spread = diffraction() * distances.back() / cell();
+  return std::max(spread.x, spread.y) < least_cells ? glm::dvec2(0) : box * diffraction();
+}
+
 Layout make_layout(const preset::Preset& preset) {
   const Location own = Location(preset.source) / "inverse";
   const Settings s = with_found_meshes(preset, own);
@@ -211,6 +219,8 @@ Layout make_layout(const preset::Preset& preset) {
            .offsets = offsets_of(s),
            .sun_radius = std::tan(glm::radians(s.sun_deg.value_or(0) / 2)),
            .scatter = std::tan(glm::radians(s.scatter_deg)),
+           .wavelength = refraction.nm * mm_a_nm,
+           .diffracts = s.diffraction && !lens,
            .light = {},
            .free_heights = s.heights == Settings::Heights::free,
            .band = band,

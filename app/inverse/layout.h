@@ -64,6 +64,8 @@ struct Layout {
   std::optional<std::vector<glm::dvec2>> offsets; ///< each receiver's middle from the z axis; none: all are on it
   double sun_radius = 0;                          ///< of every light: tangent of half its disc's angular diameter
   double scatter = 0;                             ///< standard deviation of a slope, along x and along y
+  double wavelength = 0;                          ///< in mm: the mean
+  bool diffracts = false;                         ///< whether facets spread light as slits do
   Illumination light;
 
   bool free_heights = false;                                 ///< whether facets move along z; else they stand at z = 0
@@ -90,7 +92,7 @@ struct Layout {
   bool is_beside(const glm::dvec2& p) const { return round && glm::length(p / size) > 0.5; }
   /// Whether light has a width, or many wavelengths.
   bool blurs() const {
-    return disc(light) > 0 || scatter > 0 || spectrum || has_area() ||
+    return disc(light) > 0 || scatter > 0 || spectrum || has_area() || wave_width() != glm::dvec2(0) ||
            std::ranges::any_of(own_lights, [this](const Illumination& l) { return disc(l) > 0; });
   }
   /// Tangent of half the angular diameter of a light's disc.
@@ -99,6 +101,11 @@ struct Layout {
     return !light.lamp_places.empty() ||
            std::ranges::any_of(own_lights, [](const Illumination& l) { return !l.lamp_places.empty(); });
   }
+  /// How far a facet spreads light, across and down, in direction cosines: wavelength over the facet's width, where a
+  /// slit's light first is 0 (Hecht 2017, Optics, 10.2.1).
+  glm::dvec2 diffraction() const { return wavelength / facet(); }
+  /// The width of the box that stands for it in footprints; 0 where no receiver shows it.
+  glm::dvec2 wave_width() const;
   /// Whether light counts as luminance, else as energy.
   bool coloured() const { return spectrum && spectrum->coloured; }
   std::span<const LightPart> parts() const { return spectrum ? spectrum->parts : std::span<const LightPart>(); }

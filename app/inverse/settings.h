@@ -114,6 +114,7 @@ struct Settings {
   preset::Dispersion index{};         ///< the object's index, in air
   double wavelength_nm = 550;         ///< at which the index is taken, without light.spectrum
   double band_nm = 0;                 ///< width of the light's band about it
+  bool diffraction = true;            ///< whether facets spread light as waves; a lens has none
   Light light;
   double front_azimuth_deg = 180;  ///< where the front looks, for a light of type sun: 0 is north, 90 east
   double front_elevation_deg = 0;  ///< above the horizon: 0 is an upright pane, 90 a plate that lies with its front up

@@ -44,15 +44,18 @@ std::vector<LightPart> coloured(const optics::Spectrum& power, const Index& inde
   for (std::size_t i = 0; i < power.size(); ++i)
     if (power[i] > 0)
       parts.push_back({index.at(optics::wavelength_nm(static_cast<int>(i))),
-                       power[i] / luminance * glm::dvec3(eye.x[i], eye.y[i], eye.z[i])});
+                       power[i] / luminance * glm::dvec3(eye.x[i], eye.y[i], eye.z[i]),
+                       static_cast<double>(optics::wavelength_nm(static_cast<int>(i)))});
   return parts;
 }
 
 std::vector<LightPart> band(const Settings& s, const Index& index) {
   const int count = s.band_nm > 0 ? band_samples : 1;
   std::vector<LightPart> parts;
-  for (int i = 0; i < count; ++i)
-    parts.push_back({index.at(s.wavelength_nm + s.band_nm * ((i + 0.5) / count - 0.5)), glm::dvec3(1.0 / count)});
+  for (int i = 0; i < count; ++i) {
+    const double nm = s.wavelength_nm + s.band_nm * ((i + 0.5) / count - 0.5);
+    parts.push_back({index.at(nm), glm::dvec3(1.0 / count), nm});
+  }
   return parts;
 }
 
@@ -62,7 +65,7 @@ std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::
   double sum = 0;
   for (const LightPart& piece : spectrum) sum += weight_of(piece);
   const double full = sum / static_cast<double>(count);
-  std::vector<LightPart> parts(count, {0, glm::dvec3(0)});
+  std::vector<LightPart> parts(count, {0, glm::dvec3(0), 0});
   std::size_t k = 0;
   double room = full; // in part k
   for (const LightPart& piece : spectrum) {
@@ -71,6 +74,7 @@ std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::
       const bool fits = left <= room || k + 1 == count;
       const double taken = fits ? left : room;
       parts[k].n += piece.n * taken / full;
+      parts[k].nm += piece.nm * taken / full;
       parts[k].xyz += piece.xyz * (taken / weight);
       left = fits ? 0 : left - taken;
       room -= taken;
@@ -95,10 +99,13 @@ Refraction make_refraction(const preset::Preset& preset) {
       is_coloured ? coloured(scatter::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index)
                   : band(s, index);
   if (!is_coloured && std::ranges::all_of(parts, [&](const LightPart& part) { return part.n == parts.front().n; }))
-    return {parts.front().n, std::nullopt};
-  double n = 0;
-  for (const LightPart& part : parts) n += part.n * part.xyz.y;
-  return {n, Spectrum{parts, is_coloured}};
+    return {parts.front().n, s.wavelength_nm, std::nullopt};
+  double n = 0, nm = 0;
+  for (const LightPart& part : parts) {
+    n += part.n * part.xyz.y;
+    nm += part.nm * part.xyz.y;
+  }
+  return {n, nm, Spectrum{parts, is_coloured}};
 }
 
 } // namespace nephroid::inverse

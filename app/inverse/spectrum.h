@@ -7,10 +7,13 @@
 
 namespace nephroid::inverse {
 
+inline constexpr double mm_a_nm = 1e-6;
+
 /// A piece of the light's spectrum. What counts for pictures is xyz.y: over all pieces it sums to 1.
 struct LightPart {
   double n = 1.5;    ///< index of the object over that of what is around it
   glm::dvec3 xyz{1}; ///< CIE 1931; for light without colours three equal values
+  double nm = 550;   ///< wavelength
 };
 
 struct Spectrum {
@@ -20,6 +23,7 @@ struct Spectrum {
 
 struct Refraction {
   double n = 1.5;                   ///< the mean index over what counts of the light
+  double nm = 550;                  ///< the mean wavelength
   std::optional<Spectrum> spectrum; ///< none: one index and no colours
 };
 

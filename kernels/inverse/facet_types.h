@@ -41,6 +41,7 @@ typedef struct {
   float one_over_straight; // one over the part of the light that a facet lets through without bending it
   float sun_radius[MOST_LIGHTS]; // of each light's disc: in the order of `points`
   float scatter;
+  float wave_x, wave_y; // Layout::wave_width(), as standard deviations
   float spreads; // a lamp: one over its distance, as light sees it in the object; 0: no light is a lamp's
   int free_heights;
   // The beams that stand for light with a band or a width.
@@ -77,6 +78,9 @@ typedef struct {
 #define PART_SIDE 2
 #define PART_FRONT 3
 
+// How many quantiles of half a slit's light the judge has.
+#define SLIT_QUANTILES 1024
+
 // A ray's light is counted in quanta; this many fall on a facet.
 #define RAY_QUANTA 0x1p32f
 
@@ -93,7 +97,7 @@ typedef struct {
   float4 direction; // for parallel light
   float4 lamp;
   float lamp_weight; // weight of a ray over the cosine and one over the squared distance; 0: parallel light
-  float n, sun_radius, scatter;
+  float n, sun_radius, scatter, wavelength; // wavelength: the mean, in mm
   float size_x, size_y, facet_x, facet_y;
   float entry, before; // z of where light falls in; how far before it rays begin
   float receiver_x, receiver_y, cell_x, cell_y;
@@ -102,7 +106,7 @@ typedef struct {
   uint part_step; // from a ray's part of the spectrum to the next one's; 0: one index
   int is_round; // 1: light falls on the ellipse within the front
   uint lamp_places; // how many points stand for it; 0: it is one itself
-  int padding[2];
+  int padding;
 } DeviceFront;
 
 // How a ray leaves the object.
@@ -111,7 +115,7 @@ typedef struct {
   float part; // part of its light; 0: lost
   float reflected;
   int met_wall;
-  int padding;
+  uint leaves; // the last surface it met
 } DeviceWayOut;
 
 // The facets first, ..., first + count - 1 of a sweep's order, which look for better slopes.
@@ -133,7 +137,7 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceFront) == 128 && sizeof(DeviceWayOut) == 48 && sizeof(DeviceJudgeLaunch) == 24);
 static_assert(sizeof(DeviceBatch) == 32);
-static_assert(sizeof(DeviceLayout) == 3696 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
+static_assert(sizeof(DeviceLayout) == 3704 && sizeof(DeviceReceiver) == 32 && sizeof(DeviceIncoming) == 48);
 } // namespace nephroid::shared
 #endif
 

@@ -164,8 +164,15 @@ typedef struct {
   float2 variance;   // of the slope, by the light's width and roughness
   float2 by_x, by_y, by_z; // change of the slope by the place of a point of the light
   float beside;            // variance by what is no part of a lamp: roughness
+  float2 wave;             // and by diffraction
 #endif
 } Beams;
+
+// The slope that a wave's direction cosines over a facet's own add: beams leave a facet as wide as it looks along them.
+static inline float2 wave_slope(float2 cosines, float2 slope, float2 g) {
+  const float2 over = cosines - dot(slope, cosines) / (1.0f + dot(slope, g)) * g;
+  return sqrt(1.0f + dot(slope, slope)) * (over + dot(slope, over) * slope);
+}
 
 static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* facet, float2 slope) {
   const float n = layout->n;
@@ -197,6 +204,9 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
   beams.by_y = (float2)(0.0f, sqrt(fmax(0.0f, beams.variance.y - xy * xy)));
   beams.by_z = (float2)(0.0f);
   beams.beside = 0.0f;
+  const float2 wave_x = wave_slope((float2)(layout->wave_x, 0.0f), slope, g),
+               wave_y = wave_slope((float2)(0.0f, layout->wave_y), slope, g);
+  beams.wave = wave_x * wave_x + wave_y * wave_y;
 #endif
 #if NEPHROID_INCOMING
   if (layout->spreads > 0.0f) { // by_sines * spread * (1 + inside g^T)
@@ -308,6 +318,7 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
                 2.0f * (left[3] * y * z + left[4] * x * z + left[5] * x * y);
   } else
     variance += beams->variance;
+  variance += beams->wave;
   print.low = print.high = shift_of(layout, &print, 0);
   for (int i = 1; i < print.groups * print.points; ++i) {
     print.low = fmin(print.low, shift_of(layout, &print, i));

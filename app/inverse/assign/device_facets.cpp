@@ -121,6 +121,8 @@ shared::DeviceLayout device_layout(const Layout& l) {
                             .one_over_straight = number(1 / transmitted({0, 0}, l.n)),
                             .sun_radius = {},
                             .scatter = number(l.scatter),
+                            .wave_x = number(l.wave_width().x / std::sqrt(12)),
+                            .wave_y = number(l.wave_width().y / std::sqrt(12)),
                             .spreads = number(most_spread(l)),
                             .free_heights = l.free_heights,
                             .index_spread = number(index_spread(l)),

@@ -98,6 +98,15 @@ void part_width(const glm::dmat3x2& to_slope, const LightPoints& points, Blur& b
   blur.variance += glm::dvec2(left[0][0], left[1][1]);
 }
 
+/// The variance of the slope by diffraction. Beams leave a facet as wide as it looks along them.
+glm::dvec2 wave_variance(const Layout& layout, const glm::dvec2& slope, const glm::dvec2& g) {
+  const glm::dmat2 map = glm::dmat2(1) + glm::outerProduct(slope, g);
+  const glm::dmat2 by_cosines = std::sqrt(1 + glm::dot(slope, slope)) *
+                                (glm::dmat2(1) + glm::outerProduct(slope, slope)) * glm::inverse(glm::transpose(map));
+  const glm::dvec2 x = by_cosines[0] * layout.wave_width().x, y = by_cosines[1] * layout.wave_width().y;
+  return (x * x + y * y) / 12.0;
+}
+
 /// `fine` is a cell as a slope.
 Blur blur_of(const Layout& layout, const Illumination& light, const Incoming& in, const glm::dvec2& slope,
              double fine) {
@@ -123,6 +132,7 @@ Blur blur_of(const Layout& layout, const Illumination& light, const Incoming& in
     part_width(of_lamp * seen_along(in.sines), points, blur);
     blur.variance += glm::dvec2(rough[0][0], rough[1][1]);
   }
+  blur.variance += wave_variance(layout, slope, facet_gradient(slope, layout.n, in.sines));
   return blur;
 }
 
