@@ -127,9 +127,9 @@ int parse_and_run(int argc, const char* const* argv, const Window& window) {
   program.add_option("FILE", files, "Open in the window: presets by path or shipped name");
   if (window.add_options) window.add_options(program);
   for (const auto add :
-       {add_run,    add_plan,    add_dispersion, add_clusters, add_importance, add_segment,     add_pictures,
-        add_plate,  add_measure, add_gem,        add_compare,  add_report,     add_presets,     add_import,
-        add_export, add_devices, add_check,      add_schema,   add_manual,     add_completions, add_version})
+       {add_run,     add_plan,    add_dispersion, add_clusters, add_importance,  add_segment, add_pictures, add_plate,
+        add_judge,   add_measure, add_gem,        add_compare,  add_report,      add_presets, add_import,   add_export,
+        add_devices, add_check,   add_schema,     add_manual,   add_completions, add_version})
     add(program, session);
   for (CLI::App* verb : program.get_subcommands({})) {
     verb->group("Verbs");

@@ -92,6 +92,7 @@ void add_importance(CLI::App& program, Session& session);
 void add_segment(CLI::App& program, Session& session);
 void add_pictures(CLI::App& program, Session& session);
 void add_plate(CLI::App& program, Session& session);
+void add_judge(CLI::App& program, Session& session);
 void add_report(CLI::App& program, Session& session);
 void add_compare(CLI::App& program, Session& session);
 void add_import(CLI::App& program, Session& session);

@@ -34,7 +34,7 @@ void show_pictures(const PicturesOptions& options) {
   const Design& design = *plan.design;
   std::vector<std::vector<Captioned>> columns;
   for (std::size_t j = 0; j < design.targets.size(); ++j) {
-    const Target &target = design.targets[j], &best = design.best()[j];
+    const inverse::Target &target = design.targets[j], &best = design.best()[j];
     const double most = *std::max_element(target.begin(), target.end()), off = cost_of(target, best, 1).rel_l2;
     const auto wanted = grey_picture(target, 1 / most, design.layout.cells),
                at_best = grey_picture(best, 1 / most, design.layout.cells);
