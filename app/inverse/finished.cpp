@@ -73,25 +73,15 @@ glm::dvec2 slope_of(const Layout& layout, std::size_t facet, const Triangle& tri
   return facet_slope(glm::dvec2(triangle.across) / -triangle.across.z, layout.n, layout.sines_on(facet));
 }
 
-/// Sums over the facets, each by the area that a triangle has of it, as seen from above.
-template <class Value>
-struct OverFacets {
-  std::vector<Value> sums;
-  std::vector<double> areas;
-
-  OverFacets(const Layout& layout, const Solid& solid, const auto& value)
-      : sums(layout.facet_count(), Value(0)), areas(layout.facet_count()) {
-    for (std::size_t i = 0; i < solid.parts.size(); ++i) {
-      if (solid.parts[i] != Part::facet) continue;
+/// Calls f(facet, triangle, its area as seen from above) for what bends light.
+template <class F>
+void for_surface(const Layout& layout, const Solid& solid, const F& f) {
+  for (std::size_t i = 0; i < solid.parts.size(); ++i)
+    if (solid.parts[i] == Part::facet) {
       const Triangle triangle = triangle_of(solid.mesh, i);
-      const std::size_t facet = facet_at(layout, glm::dvec2(triangle.middle));
-      sums[facet] += -triangle.across.z * value(facet, triangle);
-      areas[facet] += -triangle.across.z;
+      f(facet_at(layout, glm::dvec2(triangle.middle)), triangle, -triangle.across.z / 2);
     }
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      if (areas[i] > 0) sums[i] /= areas[i];
-  }
-};
+}
 
 } // namespace
 
@@ -128,6 +118,8 @@ Solid solid_of_heights(const Layout& layout, const image::Image& thickness, cons
   if (thickness.channels.size() != 1)
     throw bad_input(where, fmt::format("has {} channels", thickness.channels.size()),
                     "expected one: the thickness in mm");
+  if (thickness.width < 2 || thickness.height < 2)
+    throw bad_input(where, "has one row or column of pixels", "expected a map of the whole object");
   const glm::ivec2 pixels(thickness.width, thickness.height);
   std::size_t missing = 0, inside = 0;
   double sum = 0;
@@ -148,47 +140,45 @@ Solid solid_of_heights(const Layout& layout, const image::Image& thickness, cons
                     "expected millimetres above 0 in every pixel of the object; fill the holes first");
   const double mean = sum / static_cast<double>(inside);
   Solid solid;
-  // A lattice of corners, from rim to rim: at the rim that of the pixel beside it.
-  const glm::ivec2 corners = pixels + 1;
+  // Corners are in the pixels' middles, the outermost at the rim, where the surface goes on as it is beside it.
+  const auto placed = [](int i, int count) { return i == 0 ? 0.0 : i + 1 == count ? 1.0 : (i + 0.5) / count; };
+  const auto along = [](int i, int count, const auto& value) {
+    const int beside = i == 0 ? 1 : i + 1 == count ? i - 1 : i; // itself within
+    return 1.5 * value(i) - 0.5 * value(beside);
+  };
   const auto add_layer = [&](const auto& z) {
-    for (int y = 0; y < corners.y; ++y)
-      for (int x = 0; x < corners.x; ++x) {
-        glm::dvec2 p(layout.size.x * (static_cast<double>(x) / pixels.x - 0.5),
-                     layout.size.y * (0.5 - static_cast<double>(y) / pixels.y));
-        solid.add({p, z(x, y)});
-      }
+    for (int y = 0; y < pixels.y; ++y)
+      for (int x = 0; x < pixels.x; ++x)
+        solid.add({layout.size.x * (placed(x, pixels.x) - 0.5), layout.size.y * (0.5 - placed(y, pixels.y)), z(x, y)});
   };
   add_layer([&](int x, int y) {
-    double of = 0;
-    int count = 0;
-    for (int v = std::max(0, y - 1); v <= std::min(pixels.y - 1, y); ++v)
-      for (int u = std::max(0, x - 1); u <= std::min(pixels.x - 1, x); ++u, ++count) of += at(u, v);
-    return mean - of / count;
+    return mean - along(x, pixels.x, [&](int u) { return along(y, pixels.y, [&](int v) { return at(u, v); }); });
   });
   add_layer([&](int, int) { return mean; });
   const auto id = [&](int x, int y, bool is_top) {
-    return static_cast<std::uint32_t>(index_at(x, y, corners.x) + (is_top ? index_at(0, corners.y, corners.x) : 0));
+    return static_cast<std::uint32_t>(index_at(x, y, pixels.x) + (is_top ? index_at(0, pixels.y, pixels.x) : 0));
   };
   const auto add_quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, Part part) {
     solid.add(a, b, c, part);
     solid.add(a, c, d, part);
   };
-  for (int y = 0; y < pixels.y; ++y)
-    for (int x = 0; x < pixels.x; ++x) {
+  const glm::ivec2 last = pixels - 1;
+  for (int y = 0; y < last.y; ++y)
+    for (int x = 0; x < last.x; ++x) {
       add_quad(id(x, y, false), id(x + 1, y, false), id(x + 1, y + 1, false), id(x, y + 1, false), Part::facet);
       add_quad(id(x, y, true), id(x, y + 1, true), id(x + 1, y + 1, true), id(x + 1, y, true), Part::front);
     }
   const auto add_side = [&](const glm::ivec2& from, const glm::ivec2& to) {
-    add_quad(id(from.x, from.y, false), id(from.x, from.y, true), id(to.x, to.y, true), id(to.x, to.y, false),
+    add_quad(id(from.x, from.y, false), id(to.x, to.y, false), id(to.x, to.y, true), id(from.x, from.y, true),
              Part::side);
   };
-  for (int x = 0; x < pixels.x; ++x) {
+  for (int x = 0; x < last.x; ++x) {
     add_side({x + 1, 0}, {x, 0});
-    add_side({x, pixels.y}, {x + 1, pixels.y});
+    add_side({x, last.y}, {x + 1, last.y});
   }
-  for (int y = 0; y < pixels.y; ++y) {
+  for (int y = 0; y < last.y; ++y) {
     add_side({0, y}, {0, y + 1});
-    add_side({pixels.x, y + 1}, {pixels.x, y});
+    add_side({last.x, y + 1}, {last.x, y});
   }
   for (std::size_t i = 0; i < solid.parts.size(); ++i)
     if (solid.parts[i] == Part::facet) solid.parts[i] = part_of(layout, triangle_of(solid.mesh, i), mean);
@@ -221,25 +211,39 @@ void move_top(Solid& solid, double z) {
 }
 
 Deviation deviation(const Layout& layout, const Solid& design, const Solid& made, std::size_t receiver) {
-  const auto slope = [&](std::size_t facet, const Triangle& triangle) { return slope_of(layout, facet, triangle); };
-  const OverFacets<glm::dvec2> wanted(layout, design, slope);
-  const OverFacets<double> squares(layout, made, [&](std::size_t facet, const Triangle& triangle) {
-    const glm::dvec2 off =
-        (slope_of(layout, facet, triangle) - wanted.sums[facet]) * layout.distances[receiver] / layout.cell();
-    return glm::dot(off, off);
+  const std::size_t count = layout.facet_count();
+  std::vector<glm::dvec2> wanted(count);
+  std::vector<double> areas(count);
+  for_surface(layout, design, [&](std::size_t facet, const Triangle& triangle, double area) {
+    wanted[facet] += area * slope_of(layout, facet, triangle);
+    areas[facet] += area;
   });
-  Deviation found;
-  std::vector<double> known;
-  for (std::size_t i = 0; i < squares.sums.size(); ++i) {
-    found.cells.push_back(std::sqrt(squares.sums[i]));
-    if (squares.areas[i] > 0 && wanted.areas[i] > 0) known.push_back(found.cells.back());
+  struct Piece {
+    double cells = 0, area = 0;
+  };
+  std::vector<Piece> pieces;
+  std::vector<double> made_areas(count);
+  Deviation found{std::vector<double>(count), 0, 0};
+  double whole = 0, before = 0;
+  for_surface(layout, made, [&](std::size_t facet, const Triangle& triangle, double area) {
+    if (areas[facet] == 0) return;
+    const glm::dvec2 off = slope_of(layout, facet, triangle) - wanted[facet] / areas[facet];
+    pieces.push_back({glm::length(off * layout.distances[receiver] / layout.cell()), area});
+    made_areas[facet] += area;
+    whole += area;
+    if (pieces.back().cells > 1) found.off[facet] += area;
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    found.part_off += found.off[i];
+    if (made_areas[i] > 0) found.off[i] /= made_areas[i];
   }
-  if (known.empty()) return found;
-  found.part_off = static_cast<double>(std::ranges::count_if(known, [](double cells) { return cells > 1; })) /
-                   static_cast<double>(known.size());
-  const auto half = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), half, known.end());
-  found.median = *half;
+  if (whole > 0) found.part_off /= whole;
+  std::ranges::sort(pieces, {}, &Piece::cells);
+  for (const Piece& piece : pieces)
+    if (before += piece.area; before >= whole / 2) {
+      found.median_cells = piece.cells;
+      break;
+    }
   return found;
 }
 

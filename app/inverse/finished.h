@@ -29,9 +29,9 @@ void move_top(Solid& solid, double z);
 
 /// How far a made surface sends light from where the design's does, by slopes alone.
 struct Deviation {
-  std::vector<double> cells; ///< for each facet, row by row: the root mean square over it, in cells of the receiver
-  double median = 0;
-  double part_off = 0; ///< part of the facets that are more than a cell off
+  std::vector<double> off; ///< for each facet, row by row: the part of it that sends light more than a cell off
+  double part_off = 0;     ///< the same of the whole surface
+  double median_cells = 0; ///< half of the surface is closer
 };
 Deviation deviation(const Layout& layout, const Solid& design, const Solid& made, std::size_t receiver);
 

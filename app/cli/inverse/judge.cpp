@@ -110,19 +110,24 @@ struct Verdict {
   std::vector<Deviation> deviations; ///< of a made object from its design, for each receiver
 };
 
-/// How far a screen may be off, in parts of its distance, before rel_l2 is a tenth more than at its best.
+/// Where rel_l2 is half as much again as at its best, in parts of the distance; to either side.
 std::string depth_of_focus(const Verdict& v, std::size_t receiver, double part) {
   const auto rel_l2 = [&](int k) {
     return v.through.costs[receiver * focus_steps + static_cast<std::size_t>(k)].rel_l2;
   };
-  const auto off = [&](int k) { return 100 * part * (2.0 * k / (focus_steps - 1) - 1); };
   int best = 0;
   for (int k = 1; k < focus_steps; ++k)
     if (rel_l2(k) < rel_l2(best)) best = k;
-  int first = best, last = best;
-  while (first > 0 && rel_l2(first - 1) <= 1.1 * rel_l2(best)) --first;
-  while (last + 1 < focus_steps && rel_l2(last + 1) <= 1.1 * rel_l2(best)) ++last;
-  return fmt::format("best at {:+.3g} %, within a tenth from {:+.3g} to {:+.3g} %", off(best), off(first), off(last));
+  const auto percent = [&](double k) { return 100 * part * (2 * k / (focus_steps - 1) - 1); };
+  const double limit = 1.5 * rel_l2(best);
+  const auto end = [&](int step) {
+    for (int k = best; k + step >= 0 && k + step < focus_steps; k += step)
+      if (const double here = rel_l2(k), next = rel_l2(k + step); next > limit)
+        return fmt::format("{:+.2g}", percent(k + step * (limit - here) / (next - here)));
+    return fmt::format("beyond {:+.2g}", percent(step > 0 ? focus_steps - 1 : 0));
+  };
+  return fmt::format("best at {:.4g} mm; rel_l2 is half as much again at {} and {} %",
+                     v.focus.distances[receiver * focus_steps + static_cast<std::size_t>(best)], end(-1), end(1));
 }
 
 void print(const Verdict& v, double part) {
@@ -142,9 +147,10 @@ void print(const Verdict& v, double part) {
     for (std::size_t j = 0; j < v.targets.size(); ++j)
       fmt::print("through focus, picture {}: {}\n", j + 1, depth_of_focus(v, j, part));
   for (std::size_t j = 0; j < v.deviations.size(); ++j)
-    fmt::print("surface, picture {}: half of it sends light within {:.2g} cells of its place; {:.1f} % are more than a "
-               "cell off and want polishing\n",
-               j + 1, v.deviations[j].median, 100 * v.deviations[j].part_off);
+    fmt::print(
+        "surface, picture {}: half of it sends light within {:.3f} cells of its place, {:.1f} % more than a cell "
+        "off\n",
+        j + 1, v.deviations[j].median_cells, 100 * v.deviations[j].part_off);
 }
 
 Json to_json(const std::vector<Cost>& costs, std::size_t i) {
@@ -168,7 +174,7 @@ Json to_json(const Verdict& v, double part) {
       receiver["through_focus"].push_back(row);
     }
     if (!v.deviations.empty())
-      receiver["surface"] = {{"median_cells", v.deviations[j].median}, {"part_off", v.deviations[j].part_off}};
+      receiver["surface"] = {{"median_cells", v.deviations[j].median_cells}, {"part_off", v.deviations[j].part_off}};
     receivers.push_back(receiver);
   }
   const RayOutcomes& f = v.now.outcomes;
@@ -222,7 +228,7 @@ void write_files(const JudgeOptions& options, const Verdict& v) {
   }
   for (std::size_t j = 0; j < v.deviations.size(); ++j)
     write_picture(options.folder / fmt::format("surface_{}", j + 1),
-                  *grey_picture(v.deviations[j].cells, 1, v.layout.facets));
+                  *grey_picture(v.deviations[j].off, 1, v.layout.facets));
   const auto whole = sheet(columns, v.layout.receiver, 1280, 960);
   image::write_png(options.folder / "judge.png", whole->width, whole->height, whole->rgb);
   if (options.focus == 0) return;
@@ -296,8 +302,8 @@ void add_judge(CLI::App& program, Session&) {
             "OBJECT: the folder of a finished run, or what was made of it: a closed mesh (.stl, .ply, .obj), or a "
             "map of its thickness (.exr, .tif),\n"
             "in the frame of the run's own object.stl and heights.exr.\n"
-            "Files: judge.png and judge.json; receiver_1.png; surface_1.png, how many cells each place of a scan sends "
-            "light off (1 is white);\n"
+            "Files: judge.png and judge.json; receiver_1.png; surface_1.png, what part of each place of a scan sends "
+            "light more than a cell off;\n"
             "focus.csv and focus/, screens nearer and farther as frames, and a film where ffmpeg is installed.");
   verb.option("OBJECT", options->object, {.says = "What is judged", .required = true});
   verb.option("-o,--output", options->folder, {.type = "DIR", .says = "Also write files into this folder"});
