@@ -189,7 +189,7 @@ Solid solid_of_heights(const Layout& layout, const image::Image& thickness, cons
 Solid read_finished(const Layout& layout, const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".exr" || ending == ".tif" || ending == ".tiff" || ending == ".pfm")
+  if (ending == ".exr" || ending == ".tif" || ending == ".tiff")
     return solid_of_heights(layout, image::read_image(file), file.string());
   return solid_of_mesh(layout, scene::load_mesh(file), file.string());
 }
