@@ -251,6 +251,8 @@ fs::path file_of_run(const fs::path& run, const char* name) {
 }
 
 void judge(const JudgeOptions& options) {
+  if (!fs::exists(options.object))
+    throw bad_input(options.object.string(), "is not there", "expected the folder of a finished run, a mesh or a map");
   const bool is_run = fs::is_directory(options.object);
   if (is_run && !options.design.empty())
     throw bad_input("--design", "goes with a mesh or a height map; a run is its own design");
@@ -276,7 +278,7 @@ void judge(const JudgeOptions& options) {
   v.layout = now.layout();
   v.targets = now.design->targets;
   v.now = judging.cast(v.layout, v.targets, now.solid, "judged");
-  if (has_design && (!is_run || !options.overrides.empty()))
+  if (has_design && (!is_run || !options.overrides.empty()) && designed.design->targets.size() == v.targets.size())
     v.designed = judging.cast(designed.layout(), designed.design->targets, designed.solid, "designed");
   if (options.focus > 0) {
     v.focus = through_focus(v.layout, options.focus / 100, focus_steps);
