@@ -40,6 +40,18 @@ inline constexpr Choice<inverse::Light::Shape> choices<inverse::Light::Shape>[] 
     {inverse::Light::Shape::rectangle, "rectangle", "A rectangle."}};
 
 template <>
+inline constexpr Choice<inverse::Intensity::Type> choices<inverse::Intensity::Type>[] = {
+    {inverse::Intensity::Type::rectangle, "rectangle", "The same within a rectangle of angles."},
+    {inverse::Intensity::Type::ellipse, "ellipse", "The same within an ellipse of angles."},
+    {inverse::Intensity::Type::batwing, "batwing",
+     "Within an ellipse, stronger to the sides: a plane across the axis is lit evenly."},
+    {inverse::Intensity::Type::cutoff, "cutoff",
+     "As a low beam: a rectangle below a sharp cut through the axis, which rises on the right."},
+    {inverse::Intensity::Type::picture, "picture", "A picture over angles."},
+    {inverse::Intensity::Type::luminaire, "luminaire",
+     "As an IES or EULUMDAT file says; the axis is its gamma 0, C 0 is to the right, C 90 up."}};
+
+template <>
 inline constexpr Choice<inverse::Settings::Kind> choices<inverse::Settings::Kind>[] = {
     {inverse::Settings::Kind::glass, "glass", "It refracts light, which enters through its flat front."},
     {inverse::Settings::Kind::mirror, "mirror",
@@ -155,6 +167,31 @@ inline void describe(preset::Fields& v, Light& l) {
           "Its colours: a CIE illuminant by name, or an object. Luminance counts then, and pictures are judged in "
           "colours. Without it the light is of wavelength_nm and band_nm, energy counts, and pictures are grey.",
           l.spectrum);
+}
+
+inline void describe(preset::Fields& v, Intensity& i) {
+  v.about("InverseFar", "A luminous intensity that the object makes of the light, over angles, in place of pictures.");
+  using Type = Intensity::Type;
+  v.type("type", "How the intensity is spread.", i.type);
+  if (i.type == Type::luminaire)
+    v.field("file", "An IES or EULUMDAT file.", i.file, {.text = preset::Text::file, .required = true});
+  else
+    v.field("size_deg", "Width and height in angles, about the axis; of a cutoff the height below its cut.", i.size_deg,
+            {.unit = "degrees", .bounds = preset::within(0.1, 160)});
+  if (i.type == Type::picture) v.field("picture", "What fills it: a file, or an object.", i.picture, {.required = true});
+  if (i.type != Type::luminaire && i.type != Type::picture)
+    v.field("edge_deg", "Width of the edge over which it falls to nothing, but for a cut.", i.edge_deg,
+            {.unit = "degrees", .bounds = preset::within(0, 80)});
+  if (i.type == Type::cutoff)
+    v.field("rise_deg", "How steeply the cut rises right of the axis.", i.rise_deg,
+            {.unit = "degrees", .bounds = preset::within(0, 60)});
+  v.field("candela",
+          "The largest intensity that is wanted; a run is refused where 'lumens' do not suffice for it. Without, as "
+          "much as the lamp gives; of a luminaire with 'lumens', what its file says.",
+          i.candela, {.unit = "cd", .bounds = preset::within(1e-6, 1e12)});
+  v.field("lumens",
+          "Of the lamp, into all directions; of parallel light, on the front. Without, figures are for 1000 lm.",
+          i.lumens, {.unit = "lm", .bounds = preset::within(1e-6, 1e12)});
 }
 
 inline void describe(preset::Fields& v, Receiver& r) {
@@ -292,6 +329,10 @@ inline void describe(preset::Fields& v, Settings& s) {
           "judge it.",
           s.tolerances);
   v.field("receivers", "The screens that light reaches, the nearest first.", s.receivers, {.count = {1, 16}});
+  v.field("far",
+          "An intensity over directions in place of 'receivers', which there are none of then. 'cells' are of its "
+          "angles, even in their tangents.",
+          s.far);
   v.field("thesis", "Constants of the method \"thesis\".", s.thesis);
 }
 

@@ -47,7 +47,7 @@ constexpr const char* new_scene = R"({
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .state_version = 6,
+    .state_version = 7,
     .plan = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {
       auto plan = std::make_unique<InversePlan>(make_plan(preset));
       plan->notes = notes_of(preset, *plan->design);

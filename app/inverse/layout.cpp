@@ -3,6 +3,7 @@
 
 #include "base/files.h"
 #include "inverse/bending.h"
+#include "inverse/far/intensity.h"
 #include "inverse/light.h"
 
 #include <fmt/format.h>
@@ -68,7 +69,7 @@ constexpr double spared = 0.1;
 double band_of(const Settings& s, const Location& own) {
   double band = std::numeric_limits<double>::infinity();
   if (s.heights == Settings::Heights::free)
-    band = (1 - spared) * std::min(s.thickness_mm, s.receivers.front().distance_mm);
+    band = (1 - spared) * (s.far ? s.thickness_mm : std::min(s.thickness_mm, s.receivers.front().distance_mm));
   if (s.max_relief_mm) band = std::min(band, *s.max_relief_mm / 2);
   if (!s.min_thickness_mm) return band;
   if (*s.min_thickness_mm >= s.thickness_mm)
@@ -127,6 +128,13 @@ void check_aim(const Layout& l, const Location& own) {
   const double cell = std::min(l.cell().x, l.cell().y), turn = std::abs(l.n - 1) * corners_join,
                last = l.distances.back();
   if (last * turn <= cell / 2) return;
+  if (l.far)
+    throw bad_input(own / "cells",
+                    fmt::format("are {:.3g} degrees wide, and {:.2g} in its slope, the finest that facets are made, "
+                                "moves light by {:.3g}",
+                                glm::degrees(cell / last), turn, glm::degrees(turn)),
+                    fmt::format("expected cells of {:.3g} degrees or more", glm::degrees(2 * turn)),
+                    "choose fewer cells or a wider target");
   throw bad_input(own / "receivers" / (l.distances.size() - 1) / "distance_mm",
                   fmt::format("is {} mm, where {:.2g} in its slope, the finest that facets are made, moves light by "
                               "{:.4g} mm over a cell of {:.4g} mm",
@@ -211,9 +219,12 @@ Layout make_layout(const preset::Preset& preset) {
            .facets = facets,
            .n = refraction.n,
            .spectrum = refraction.spectrum,
-           .receiver = s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : size,
+           .receiver = s.far           ? 2.0 * far_half(preset) * far_away * std::max(size.x, size.y)
+                       : s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : size,
            .cells = {s.cells[0], s.cells[1]},
-           .distances = of_receivers(s, [](const Receiver& r) { return r.distance_mm; }),
+           .distances = s.far ? std::vector<double>{far_away * std::max(size.x, size.y)}
+                              : of_receivers(s, [](const Receiver& r) { return r.distance_mm; }),
+           .far = s.far.has_value(),
            .frames = frames_of(s),
            .weights = of_receivers(s, [](const Receiver& r) { return r.weight; }),
            .offsets = offsets_of(s),
@@ -262,6 +273,12 @@ void check_reach(const Layout& layout, const std::vector<Target>& targets, const
       return turn(a, distance) < turn(b, distance);
     });
     if (turn(place, distance) <= limit) continue;
+    if (layout.far)
+      throw bad_input(Location(preset.source) / "inverse" / "far",
+                      fmt::format("light must go {:.4g} degrees from the axis, a turn by a slope of {:.3g}",
+                                  glm::degrees(std::atan(glm::length(place) / distance)), turn(place, distance)),
+                      fmt::format("{} {:.3g} at most", limits, limit),
+                      "choose a narrower target, or an index farther from 1");
     double far = distance;
     while (far < 1e7 && turn(place, far) > limit) far *= 1.01;
     throw bad_input(

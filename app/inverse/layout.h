@@ -59,6 +59,7 @@ struct Layout {
   glm::dvec2 receiver{100, 100};    ///< size of every receiver
   glm::ivec2 cells{64, 64};         ///< cells of a receiver, across and down
   std::vector<double> distances;    ///< ascending
+  bool far = false; ///< whether the one receiver is so far away that directions alone count
   std::vector<double> frames;       ///< distances of further screens, which only the judge looks at; ascending
   std::optional<std::vector<double>> weights;     ///< weight of each receiver's picture; none: they count alike
   std::optional<std::vector<glm::dvec2>> offsets; ///< each receiver's middle from the z axis; none: all are on it
@@ -113,6 +114,8 @@ struct Layout {
   std::span<const Incoming> incoming() const { return light.facets ? *light.facets : std::span<const Incoming>(); }
   glm::dvec2 facet() const { return size / glm::dvec2(facets); }
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
+  /// A receiver far away is drawn smaller by this, about as large as the object.
+  double shrink() const { return far ? std::max(size.x, size.y) / std::max(receiver.x, receiver.y) : 1; }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
   std::size_t cell_count() const { return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y); }
   /// The point at so many facets across and down from the top left.

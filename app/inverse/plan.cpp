@@ -5,6 +5,7 @@
 #include "inverse/assign/assignment.h"
 #include "inverse/describe_settings.h"
 #include "inverse/diffraction.h"
+#include "inverse/far/intensity.h"
 #include "inverse/facets/smooth_solid.h"
 #include "inverse/lens/lens.h"
 #include "inverse/light.h"
@@ -28,7 +29,8 @@ std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l, std
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
   const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
-                                       counted(l.distances.size(), "receiver"), usable_slope(l));
+                                       l.far ? "an intensity over directions" : counted(l.distances.size(), "receiver"),
+                                       usable_slope(l));
   const std::string chosen = fmt::format("inverse.method is '{}'", preset::word(s.method));
   const bool anneals = thesis && s.thesis.cycles > 0, corrects = thesis && s.thesis.corrections > 0;
   return {{"assign", assign, assign ? what : chosen},
@@ -134,6 +136,7 @@ std::vector<std::string> notes_of(const preset::Preset& preset, const Design& de
   if (s.method == Settings::Method::lens)
     std::ranges::move(forecast_notes(s, design.lens()), std::back_inserter(notes));
   std::ranges::move(diffraction_notes(s, l), std::back_inserter(notes));
+  if (l.far) std::ranges::move(far_notes(preset, l), std::back_inserter(notes));
   const std::int64_t trials = Pipeline::trials_of(s.thesis);
   if (s.method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
     notes.push_back(

@@ -3,6 +3,7 @@
 
 #include "inverse/diffraction.h"
 #include "inverse/facets/files.h"
+#include "inverse/far/cast.h"
 #include "inverse/glass_view.h"
 #include "inverse/object_view.h"
 #include "inverse/print_page.h"
@@ -155,6 +156,7 @@ void add_figures(job::Snapshot& snapshot, const RunState& run, const std::option
   if (conflicts) add_conflicts(snapshot, *conflicts);
   if (!run.is_judged()) return;
   const RayOutcomes f = run.judgement->judge().outcomes();
+  if (run.layout.far) add_intensity_figures(snapshot, cast_of(run));
   add(snapshot, "light", {{"sent", f.sent}, {"reflected", f.reflected}, {"lost", f.lost}, {"by_walls", f.by_walls}});
   add_object(snapshot, run.layout, *run.judgement->solid(), run.method.slopes());
 }
@@ -167,7 +169,9 @@ std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& sna
     const double brightest = run.brightest(j);
     const auto wanted = grey_picture(run.targets[j], 1 / brightest, run.layout.cells),
                received = run.picture_of(j, brightest);
-    columns.push_back({{wanted, fmt::format("wanted at {} mm{}", run.layout.distances[j], in_light_of(run, j))},
+    columns.push_back({{wanted, run.layout.far ? "wanted, over tangents of angles"
+                                               : fmt::format("wanted at {} mm{}", run.layout.distances[j],
+                                                             in_light_of(run, j))},
                        {received, fmt::format("cast: cost {:.3f}", costs[j].cost)},
                        {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
     const char* const names[] = {"target", "receiver", "difference"};
@@ -223,7 +227,7 @@ void add_files(job::Snapshot& snapshot, const RunState& run) {
   add("facets.json", write_facets);
   add("heights.exr", write_height_exr);
   add("heights.png", write_height_png);
-  if (!run.layout.light.lamp && run.layout.own_lights.empty())
+  if (!run.layout.light.lamp && run.layout.own_lights.empty() && !run.layout.far)
     snapshot.files.push_back({glass_view_file, [view = glass_view(run.layout, run.targets, run.preset)](ByteSink& to) {
                                 to.write(std::as_bytes(std::span(view)));
                               }});
@@ -244,7 +248,8 @@ void add_files(job::Snapshot& snapshot, const RunState& run) {
                const Layout& of, const Solid& solid) { return workshop_page(of, solid, material, making) + table; });
   if (!csv.empty()) add_text("tolerance.csv", [csv](const auto&...) { return csv; });
   add_text("print_object.svg", [name](const Layout& of, const Solid&) { return object_page(of, name); });
-  for (std::size_t j = 0; j < run.targets.size(); ++j)
+  if (run.layout.far) add_intensity_files(snapshot, cast_of(run), name);
+  for (std::size_t j = 0; j < run.targets.size() && !run.layout.far; ++j)
     add_text(fmt::format("print_{}.svg", j + 1),
              [name, j, cast = run.picture_of(j, run.brightest(j))](const Layout& of, const Solid&) {
                return receiver_page(of, j, *cast, name);

@@ -94,6 +94,31 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
   }
 }
 
+void check_far(const Settings& s, const std::string& pointer, const Where& where) {
+  const Intensity& far = *s.far;
+  if (far.type == Intensity::Type::picture)
+    check_picture(far.picture, preset::child(pointer, "picture"), where);
+  if (s.receivers != std::vector<Receiver>(1))
+    throw bad_input(where("/inverse/receivers"), "stand beside 'far', and directions are of one target alone",
+                    "expected one of both", "take 'far' or 'receivers' away");
+  if (s.receiver_mm)
+    throw bad_input(where("/inverse/receiver_mm"), "is a size in mm, and 'far' has one in degrees", "expected none",
+                    "remove it");
+  if (s.method == Settings::Method::thesis)
+    throw bad_input(where("/inverse/method"), "is \"thesis\", which aims at receivers", "expected no 'far'",
+                    "choose the method 'lens' or 'assign'");
+  if (s.light.type == Light::Type::area &&
+      (s.light.size_mm[0] > s.size_mm[0] || s.light.size_mm[1] > s.size_mm[1]))
+    throw bad_input(where("/inverse/light/size_mm"),
+                    fmt::format("is {} x {} mm, and the object {} x {} mm", s.light.size_mm[0], s.light.size_mm[1],
+                                s.size_mm[0], s.size_mm[1]),
+                    "expected a lamp smaller than the object, which spreads its light too far otherwise",
+                    "choose a smaller lamp or a larger size_mm");
+  if (far.candela && !far.lumens)
+    throw bad_input(where(preset::child(pointer, "lumens")), "is not given, and 'candela' is",
+                    "expected the lumens of the lamp, which candela are of", "give 'lumens', or remove 'candela'");
+}
+
 /// The camera gives the size of the sheet of pictures; whatever else a scene has, this engine has none of it.
 void check_scene(const preset::Preset& preset, const Where& where) {
   const auto refuse = [&](const char* key) {
@@ -119,6 +144,7 @@ void check(const preset::Preset& preset, const Where& where) {
   check_scene(preset, where);
   check_light(s.light, s, "/inverse/light", where);
   check_receivers(s, "/inverse/receivers", where);
+  if (s.far) check_far(s, "/inverse/far", where);
   if (s.frames > 0 && s.receivers.size() == 1)
     refuse("frames", fmt::format("is {}, and there is one receiver", s.frames),
            "expected two or more, between which a screen can move", "add a receiver, or take 'frames' away");

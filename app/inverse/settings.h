@@ -75,6 +75,21 @@ struct Light {
   bool operator==(const Light&) const = default;
 };
 
+/// A wanted luminous intensity over directions, far from the object: the section "inverse.far". Its angles are those of
+/// a direction's projections: to the right of and above the axis, which goes along the light through the middle.
+struct Intensity {
+  enum class Type { rectangle, ellipse, batwing, cutoff, picture, luminaire };
+  Type type = Type::rectangle;
+  std::array<double, 2> size_deg{40, 20}; ///< all but luminaire: width and height
+  double edge_deg = 0;                    ///< shapes: how wide the edge is over which it falls to 0
+  double rise_deg = 15;                   ///< cutoff: of the cut right of the axis
+  Picture picture;                        ///< picture: fills the size
+  std::string file;                       ///< luminaire: IES or EULUMDAT
+  std::optional<double> candela{};        ///< its largest; without: as bright as the lamp makes it
+  std::optional<double> lumens{};         ///< of the lamp, into all directions
+  bool operator==(const Intensity&) const = default;
+};
+
 struct Receiver {
   double distance_mm = 100;              ///< from the facets
   std::array<double, 2> offset_mm{0, 0}; ///< the receiver's middle, from the object's; not thesis
@@ -125,6 +140,7 @@ struct Settings {
   int frames = 0;                                     ///< pictures between a receiver and the next one
   bool tolerances = false;                            ///< whether objects with errors are judged, too
   std::vector<Receiver> receivers{1};                 ///< the nearest first
+  std::optional<Intensity> far{};                     ///< in place of the receivers
   Thesis thesis{};                                    ///< constants of the method thesis
   bool operator==(const Settings&) const = default;
 };

@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A goniometer's reading as the files that lighting programs read: IES (ANSI/IES LM-63-2002, type C) and EULUMDAT
-// (Stockmar 1990). scene/photometry.h reads them.
+// A goniometer's reading as a luminaire's file has it (scene/luminaire_files.h).
 #pragma once
 #include "meters/reading.h"
-
-#include <string>
+#include "scene/luminaire_files.h"
 
 namespace nephroid::meters {
 
-/// name: for people, one line. In steps of the meter's step_deg or less, which divide 90 degrees; C from 0 to 360.
-/// Lumens are the reading's, and so are the watts: of light, not of electricity.
-std::string ies(const preset::Meter& meter, const scene::MeterSurface& goniometer, const Reading& reading,
-                const std::string& name);
-/// The same as EULUMDAT, without symmetry: cd for 1,000 lm.
-std::string eulumdat(const preset::Meter& meter, const scene::MeterSurface& goniometer, const Reading& reading,
-                     const std::string& name);
+/// In steps of the meter's step_deg or less, which divide 90 degrees. Lumens are the reading's, and so are the watts:
+/// of light, not of electricity.
+scene::LuminaireGrid luminaire(const preset::Meter& meter, const scene::MeterSurface& goniometer,
+                               const Reading& reading);
 
 } // namespace nephroid::meters

@@ -82,8 +82,9 @@ std::vector<std::string> write_meters(const fs::path& folder, const std::string&
     write_file_whole(file(shown, ".csv"), meters::csv(surface, shown.origin, shown.metres_per_unit, *shown.reading));
     if (surface.is_goniometer()) {
       const std::string stem = preset::file_stem(shown.meter);
-      write_file_whole(file(shown, ".ies"), meters::ies(shown.meter, surface, *shown.reading, stem));
-      write_file_whole(file(shown, ".ldt"), meters::eulumdat(shown.meter, surface, *shown.reading, stem));
+      const scene::LuminaireGrid grid = meters::luminaire(shown.meter, surface, *shown.reading);
+      write_file_whole(file(shown, ".ies"), scene::ies(grid, shown.meter.name, stem));
+      write_file_whole(file(shown, ".ldt"), scene::eulumdat(grid, shown.meter.name, stem));
     }
     image::write_exr(file(shown, ".exr"), meters::picture(surface, shown.metres_per_unit, *shown.reading));
     const measure::Bitmap map = meters::false_colours(shown.meter, surface, shown.metres_per_unit, *shown.reading);

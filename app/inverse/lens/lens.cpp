@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nephroid::inverse {
 namespace {
@@ -26,11 +27,11 @@ constexpr int rounds = 3;
 /// A correction that gains less, in parts of the error, gains too little.
 constexpr double worth = 0.02;
 
-glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver); }
+glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver * layout.shrink()); }
 
 /// Parts of a facet along a side, in which the light of the surface is seen.
 int parts_of_facet(const Layout& layout) {
-  const glm::dvec2 a_cell = layout.facet() / layout.cell();
+  const glm::dvec2 a_cell = layout.facet() / (layout.cell() * layout.shrink());
   return std::clamp(static_cast<int>(std::ceil(3 * std::max(a_cell.x, a_cell.y))), 1, 4);
 }
 
@@ -84,8 +85,8 @@ Lens::Lens(const Layout& layout, const Target& target, std::optional<double> mes
     : layout_(layout), target_(target), mesh_error_(mesh_error), settings_(std::move(settings)),
       domain_(domain_of(layout)), fine_(layout),
       transport_(on_grid(layout, transport_cells(layout), layout.size, layout.facets, flat_powers(layout)),
-                 on_grid(layout, transport_cells(layout), layout.receiver, layout.cells, target)),
-      wanted_(blurred(on_grid(layout, most_cells(layout), layout.receiver, layout.cells, target))),
+                 on_grid(layout, transport_cells(layout), layout.receiver * layout.shrink(), layout.cells, target)),
+      aim_(target), best_aim_(target), wanted_(wanted_of(aim_)),
       heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()),
       flow_of_(static_cast<int>(wanted_.cols()), static_cast<int>(wanted_.rows()), {1, 1}),
       heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)), best_heights_(heights_),
@@ -116,10 +117,19 @@ std::uint64_t Lens::bytes(const Layout& layout) {
 /// p from the domain's top left corner, y down.
 glm::dvec2 Lens::from_corner(const glm::dvec2& p) const { return {p.x + domain_.x / 2, domain_.y / 2 - p.y}; }
 
+/// The same for a place of the receiver.
+glm::dvec2 Lens::drawn(const glm::dvec2& p) const {
+  return from_corner(layout_.shrink() * (p - layout_.offset(0)));
+}
+
+Grid Lens::wanted_of(const Target& target) const {
+  return blurred(on_grid(layout_, most_cells(layout_), layout_.receiver * layout_.shrink(), layout_.cells, target));
+}
+
 /// Where the transport sends the light that leaves at p, on the receiver.
 glm::dvec2 Lens::goal(const glm::dvec2& p) const {
   const glm::dvec2 cell = domain_ / transport_.cells(), to = cell * transport_.map(from_corner(p) / cell);
-  return layout_.offset(0) + glm::dvec2(to.x - domain_.x / 2, domain_.y / 2 - to.y);
+  return layout_.offset(0) + glm::dvec2(to.x - domain_.x / 2, domain_.y / 2 - to.y) / layout_.shrink();
 }
 
 /// Where the surface sends the light that leaves at p.
@@ -188,10 +198,26 @@ std::vector<glm::dvec2> Lens::corners_land() const {
     for (std::size_t i = range.begin * columns; i < range.end * columns; ++i) {
       const std::size_t row = i / columns, column = i % columns;
       const glm::dvec2 p = fine_.corner(static_cast<double>(column), static_cast<double>(row));
-      corners[i] = from_corner(landing(p, surface_.at(p)) - layout_.offset(0)) / cell;
+      corners[i] = drawn(landing(p, surface_.at(p))) / cell;
     }
   });
   return corners;
+}
+
+/// The surface's light far away where nothing blurs it: there it is as wide as the surface bends it, not as a facet.
+std::vector<double> Lens::sharp_light() const {
+  constexpr int finer = 4, rim = 1; // a rim of cells gets what falls beside
+  const glm::dvec2 part = fine_cell() / (layout_.cell() * layout_.shrink() / static_cast<double>(finer)),
+                   corner = drawn(layout_.offset(0) + glm::dvec2(-1, 1) * layout_.receiver / 2.0) / fine_cell();
+  std::vector<glm::dvec2> corners = corners_land();
+  for (glm::dvec2& p : corners) p = (p - corner) * part + glm::dvec2(finer * rim);
+  const glm::ivec2 cells = layout_.cells + 2 * rim;
+  const Grid all = spread(sent_by_, corners, finer * cells.y, finer * cells.x);
+  std::vector<double> light;
+  for (int y = 0; y < layout_.cells.y; ++y)
+    for (int x = 0; x < layout_.cells.x; ++x)
+      light.push_back(all.block((y + rim) * finer, (x + rim) * finer, finer, finer).sum());
+  return light;
 }
 
 /// Finds the surface's light, as that of its facets' parts.
@@ -213,6 +239,7 @@ void Lens::see() {
   light_ = std::move(light.front());
   for (std::size_t block = 1; block < blocks; ++block)
     for (std::size_t c = 0; c < light_.size(); ++c) light_[c] += light[block][c];
+  if (layout_.far && !layout_.blurs()) light_ = sharp_light();
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
     const glm::dvec2 p = layout_.middle(i);
     const Surface::At at = surface_.at(p);
@@ -221,8 +248,20 @@ void Lens::see() {
   sent_ = sent_by_.sum();
 }
 
+/// Aims more light at cells that lack some because a lamp's size spreads it, and less at those that have too much.
+void Lens::aim() {
+  constexpr double most = 2; // a step's factor
+  const double all = std::accumulate(light_.begin(), light_.end(), 0.0);
+  double sum = 0;
+  for (std::size_t c = 0; c < aim_.size(); ++c)
+    sum += aim_[c] *= std::pow(std::clamp(all * target_[c] / std::max(light_[c], 1e-12 * all), 1 / most, most), share_);
+  for (double& cell : aim_) cell /= sum;
+  wanted_ = wanted_of(aim_);
+}
+
 /// Light flows from where there is too much: along the gradient of Poisson's solution, over what is there.
 void Lens::correct() {
+  if (layout_.far && layout_.blurs()) aim();
   Grid there = spread(sent_by_, corners_land(), wanted_.rows(), wanted_.cols());
   there *= wanted_.sum() / there.sum();
   const Spline flow(flow_of_.solve(wanted_ - there)), amount(Grid((wanted_ + there) / 2));
@@ -231,9 +270,9 @@ void Lens::correct() {
   set_heights(bent([&](const glm::dvec2& p, const Surface::At& at) {
     const glm::dvec2 to = landing(p, at);
     if (layout_.is_beside(p)) return to; // there is no light to move
-    const glm::dvec2 on_grid = glm::clamp(from_corner(to - layout_.offset(0)) / cell - 0.5, glm::dvec2(0), cells - 1.0);
+    const glm::dvec2 on_grid = glm::clamp(drawn(to) / cell - 0.5, glm::dvec2(0), cells - 1.0);
     const glm::dvec2 move = flow.at(on_grid).gradient * (share_ / std::max(least, amount.at(on_grid).value));
-    return to + move * cell * glm::dvec2(1, -1);
+    return to + move * cell * glm::dvec2(1, -1) / layout_.shrink();
   }));
 }
 
@@ -252,8 +291,10 @@ void Lens::advance() {
   if (error < best_) {
     best_ = error;
     best_heights_ = heights_;
+    best_aim_ = aim_;
   } else {
     share_ /= 2;
+    aim_ = best_aim_;
     set_heights(best_heights_);
     see();
   }
@@ -305,12 +346,15 @@ void Lens::serialize(Archive& archive) {
   archive.value(stale_);
   archive.value(share_);
   archive.value(best_);
+  archive.items(std::span(aim_));
+  archive.items(std::span(best_aim_));
   for (Grid* const grid : {&heights_, &best_heights_})
     archive.items(std::span(grid->data(), static_cast<std::size_t>(grid->size())));
   if (!archive.is_read()) return;
   constexpr double farthest = 1e7; // mm
   if (!(heights_.array().abs() < farthest).all() || !(best_heights_.array().abs() < farthest).all())
     throw bad_input("checkpoint.bin", "is of another run");
+  wanted_ = wanted_of(aim_);
   set_heights(heights_);
   see();
 }

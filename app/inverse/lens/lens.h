@@ -43,9 +43,13 @@ private:
   /// After this many corrections in a row that gain too little, no more follow.
   static constexpr std::int64_t most_stale = 2;
 
+  void aim();
   void correct();
   glm::dvec2 fine_cell() const { return domain_ / glm::dvec2(wanted_.cols(), wanted_.rows()); }
   glm::dvec2 from_corner(const glm::dvec2& p) const;
+  glm::dvec2 drawn(const glm::dvec2& p) const;
+  Grid wanted_of(const Target& target) const;
+  std::vector<double> sharp_light() const;
   glm::dvec2 goal(const glm::dvec2& p) const;
   glm::dvec2 landing(const glm::dvec2& p, const Surface::At& at) const;
   Grid bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface::At&)>& goal) const;
@@ -62,7 +66,9 @@ private:
   glm::dvec2 domain_; ///< size of the grid in millimetres, about the middle of the object, and of the receiver
   Layout fine_;       ///< the layout with facets in parts, whose light is that of the surface
   Transport transport_;
-  Grid wanted_; ///< on the finest grid
+  /// What the lens aims at: the target, or, far away, what a lamp's size makes of that; and that of the best heights.
+  Target aim_, best_aim_;
+  Grid wanted_; ///< the aim on the finest grid
   Poisson heights_of_, flow_of_;
   // The state, and what follows from it.
   int moved_ = 0; ///< completed steps of the transport

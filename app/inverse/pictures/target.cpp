@@ -2,6 +2,7 @@
 #include "inverse/pictures/target.h"
 
 #include "image/image.h"
+#include "inverse/far/intensity.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -143,7 +144,8 @@ std::vector<Target> make_targets(const preset::Preset& preset, const Layout& lay
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const Location where = Location(preset.source) / "inverse" / "receivers";
   std::vector<Target> targets;
-  for (const Receiver& r : settings(preset).receivers)
+  if (layout.far) targets.push_back(far_target(preset, layout, notes));
+  for (const Receiver& r : layout.far ? std::vector<Receiver>() : settings(preset).receivers)
     targets.push_back(make_target(r.picture, layout, finder, where / targets.size() / "picture", notes));
   check_reach(layout, targets, preset);
   return targets;
