@@ -178,7 +178,8 @@ inline void describe(preset::Fields& v, Intensity& i) {
   else
     v.field("size_deg", "Width and height in angles, about the axis; of a cutoff the height below its cut.", i.size_deg,
             {.unit = "degrees", .bounds = preset::within(0.1, 160)});
-  if (i.type == Type::picture) v.field("picture", "What fills it: a file, or an object.", i.picture, {.required = true});
+  if (i.type == Type::picture)
+    v.field("picture", "What fills it: a file, or an object.", i.picture, {.required = true});
   if (i.type != Type::luminaire && i.type != Type::picture)
     v.field("edge_deg", "Width of the edge over which it falls to nothing, but for a cut.", i.edge_deg,
             {.unit = "degrees", .bounds = preset::within(0, 80)});

@@ -220,7 +220,8 @@ Layout make_layout(const preset::Preset& preset) {
            .n = refraction.n,
            .spectrum = refraction.spectrum,
            .receiver = s.far           ? 2.0 * far_half(preset) * far_away * std::max(size.x, size.y)
-                       : s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : size,
+                       : s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1])
+                                       : size,
            .cells = {s.cells[0], s.cells[1]},
            .distances = s.far ? std::vector<double>{far_away * std::max(size.x, size.y)}
                               : of_receivers(s, [](const Receiver& r) { return r.distance_mm; }),

@@ -59,7 +59,7 @@ struct Layout {
   glm::dvec2 receiver{100, 100};    ///< size of every receiver
   glm::ivec2 cells{64, 64};         ///< cells of a receiver, across and down
   std::vector<double> distances;    ///< ascending
-  bool far = false; ///< whether the one receiver is so far away that directions alone count
+  bool far = false;                 ///< whether the one receiver is so far away that directions alone count
   std::vector<double> frames;       ///< distances of further screens, which only the judge looks at; ascending
   std::optional<std::vector<double>> weights;     ///< weight of each receiver's picture; none: they count alike
   std::optional<std::vector<glm::dvec2>> offsets; ///< each receiver's middle from the z axis; none: all are on it

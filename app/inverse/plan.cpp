@@ -5,8 +5,8 @@
 #include "inverse/assign/assignment.h"
 #include "inverse/describe_settings.h"
 #include "inverse/diffraction.h"
-#include "inverse/far/intensity.h"
 #include "inverse/facets/smooth_solid.h"
+#include "inverse/far/intensity.h"
 #include "inverse/lens/lens.h"
 #include "inverse/light.h"
 #include "inverse/pictures/preview.h"
@@ -28,9 +28,9 @@ std::vector<plan::Decision> decisions_of(const Settings& s, const Layout& l, std
   const bool blurred = l.blurs(), straight = !l.light.facets;
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
-  const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
-                                       l.far ? "an intensity over directions" : counted(l.distances.size(), "receiver"),
-                                       usable_slope(l));
+  const std::string what =
+      fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
+                  l.far ? "an intensity over directions" : counted(l.distances.size(), "receiver"), usable_slope(l));
   const std::string chosen = fmt::format("inverse.method is '{}'", preset::word(s.method));
   const bool anneals = thesis && s.thesis.cycles > 0, corrects = thesis && s.thesis.corrections > 0;
   return {{"assign", assign, assign ? what : chosen},

@@ -138,6 +138,10 @@ std::string material_of(const Settings& s, double n) {
                                       : fmt::format("at {} nm", s.wavelength_nm));
 }
 
+CastIntensity cast_far(const RunState& run) {
+  return cast_of(run.preset, run.layout, run.targets.front(), run.judgement->judge().light(0));
+}
+
 } // namespace
 
 double RunState::brightest(std::size_t receiver) const { return *std::ranges::max_element(targets[receiver]); }
@@ -156,7 +160,7 @@ void add_figures(job::Snapshot& snapshot, const RunState& run, const std::option
   if (conflicts) add_conflicts(snapshot, *conflicts);
   if (!run.is_judged()) return;
   const RayOutcomes f = run.judgement->judge().outcomes();
-  if (run.layout.far) add_intensity_figures(snapshot, cast_of(run));
+  if (run.layout.far) add_intensity_figures(snapshot, cast_far(run));
   add(snapshot, "light", {{"sent", f.sent}, {"reflected", f.reflected}, {"lost", f.lost}, {"by_walls", f.by_walls}});
   add_object(snapshot, run.layout, *run.judgement->solid(), run.method.slopes());
 }
@@ -169,11 +173,11 @@ std::vector<std::shared_ptr<const job::Picture>> add_pictures(job::Snapshot& sna
     const double brightest = run.brightest(j);
     const auto wanted = grey_picture(run.targets[j], 1 / brightest, run.layout.cells),
                received = run.picture_of(j, brightest);
-    columns.push_back({{wanted, run.layout.far ? "wanted, over tangents of angles"
-                                               : fmt::format("wanted at {} mm{}", run.layout.distances[j],
-                                                             in_light_of(run, j))},
-                       {received, fmt::format("cast: cost {:.3f}", costs[j].cost)},
-                       {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
+    columns.push_back(
+        {{wanted, run.layout.far ? "wanted, over tangents of angles"
+                                 : fmt::format("wanted at {} mm{}", run.layout.distances[j], in_light_of(run, j))},
+         {received, fmt::format("cast: cost {:.3f}", costs[j].cost)},
+         {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
     const char* const names[] = {"target", "receiver", "difference"};
     for (std::size_t i = 0; i < 3; ++i)
       snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i].picture});
@@ -248,7 +252,7 @@ void add_files(job::Snapshot& snapshot, const RunState& run) {
                const Layout& of, const Solid& solid) { return workshop_page(of, solid, material, making) + table; });
   if (!csv.empty()) add_text("tolerance.csv", [csv](const auto&...) { return csv; });
   add_text("print_object.svg", [name](const Layout& of, const Solid&) { return object_page(of, name); });
-  if (run.layout.far) add_intensity_files(snapshot, cast_of(run), name);
+  if (run.layout.far) add_intensity_files(snapshot, cast_far(run), name);
   for (std::size_t j = 0; j < run.targets.size() && !run.layout.far; ++j)
     add_text(fmt::format("print_{}.svg", j + 1),
              [name, j, cast = run.picture_of(j, run.brightest(j))](const Layout& of, const Solid&) {

@@ -96,8 +96,7 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
 
 void check_far(const Settings& s, const std::string& pointer, const Where& where) {
   const Intensity& far = *s.far;
-  if (far.type == Intensity::Type::picture)
-    check_picture(far.picture, preset::child(pointer, "picture"), where);
+  if (far.type == Intensity::Type::picture) check_picture(far.picture, preset::child(pointer, "picture"), where);
   if (s.receivers != std::vector<Receiver>(1))
     throw bad_input(where("/inverse/receivers"), "stand beside 'far', and directions are of one target alone",
                     "expected one of both", "take 'far' or 'receivers' away");
@@ -107,8 +106,7 @@ void check_far(const Settings& s, const std::string& pointer, const Where& where
   if (s.method == Settings::Method::thesis)
     throw bad_input(where("/inverse/method"), "is \"thesis\", which aims at receivers", "expected no 'far'",
                     "choose the method 'lens' or 'assign'");
-  if (s.light.type == Light::Type::area &&
-      (s.light.size_mm[0] > s.size_mm[0] || s.light.size_mm[1] > s.size_mm[1]))
+  if (s.light.type == Light::Type::area && (s.light.size_mm[0] > s.size_mm[0] || s.light.size_mm[1] > s.size_mm[1]))
     throw bad_input(where("/inverse/light/size_mm"),
                     fmt::format("is {} x {} mm, and the object {} x {} mm", s.light.size_mm[0], s.light.size_mm[1],
                                 s.size_mm[0], s.size_mm[1]),

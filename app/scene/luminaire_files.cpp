@@ -42,8 +42,7 @@ std::string ies(const LuminaireGrid& grid, const std::string& test, const std::s
 std::string eulumdat(const LuminaireGrid& grid, const std::string& test, const std::string& name) {
   double below = 0, everywhere = 0; // the flux, up to a factor
   for (std::size_t gamma = 0; gamma < grid.gamma_deg.size(); ++gamma) {
-    const double angle = grid.gamma_deg[gamma],
-                 before = gamma > 0 ? grid.gamma_deg[gamma - 1] : angle,
+    const double angle = grid.gamma_deg[gamma], before = gamma > 0 ? grid.gamma_deg[gamma - 1] : angle,
                  after = gamma + 1 < grid.gamma_deg.size() ? grid.gamma_deg[gamma + 1] : angle;
     for (int plane = 0; plane < grid.planes; ++plane) {
       const double flux = grid.at(plane, gamma) * std::sin(angle * M_PI / 180) * (after - before);

@@ -108,7 +108,8 @@ TEST(Goniometer, WritesTheFileOfALampThatWasRead) {
   const double per_watt = far.reading.all().numbers(Quantity::illuminance).total.value / 2;
   for (const auto& [name, text] :
        {std::pair{"out.ies", scene::ies(meters::luminaire(far.meter, far.surface, far.reading), "test", "lamp")},
-        std::pair{"out.ldt", scene::eulumdat(meters::luminaire(far.meter, far.surface, far.reading), "test", "lamp")}}) {
+        std::pair{"out.ldt",
+                  scene::eulumdat(meters::luminaire(far.meter, far.surface, far.reading), "test", "lamp")}}) {
     const scene::Photometry out = scene::load_photometry(folder.write(name, text));
     const double unit = std::string(name) == "out.ies" ? per_watt : 1000.0 / 2;
     for (const double gamma : {5.0, 30.0, 60.0})
@@ -128,8 +129,7 @@ TEST(Goniometer, ALampMayHaveItsFilesOwnLumens) {
   const auto lumens_of = [&](const std::string& file) {
     const Measured far = measured(lamp_preset(
         R"({"type": "point", "file_lumens": true, "photometry": ")" + file + "\"}", "", folder.path().string() + "/"));
-    folder.write("out.ldt",
-                 scene::eulumdat(meters::luminaire(far.meter, far.surface, far.reading), "test", "lamp"));
+    folder.write("out.ldt", scene::eulumdat(meters::luminaire(far.meter, far.surface, far.reading), "test", "lamp"));
     return far.reading.all().numbers(Quantity::illuminance).total.value;
   };
   const double lumens = lumens_of("in.ies");

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace nephroid::inverse {
 namespace {
@@ -33,13 +34,16 @@ double contrast_of(const CastIntensity& cast, const Intensity& far) {
 
 scene::LuminaireGrid grid_of(const CastIntensity& cast) {
   const glm::dvec2 half = cast.layout.receiver / 2.0 / cast.layout.distances.front();
-  const double cell = glm::degrees(std::min(cast.layout.cell().x, cast.layout.cell().y) / cast.layout.distances.front()),
+  const double cell =
+                   glm::degrees(std::min(cast.layout.cell().x, cast.layout.cell().y) / cast.layout.distances.front()),
                reach = glm::degrees(std::atan(glm::length(half)));
   const int gammas = std::clamp(static_cast<int>(std::ceil(reach / cell)), 8, 256);
   scene::LuminaireGrid grid;
   for (int i = 0; i <= gammas + 1; ++i) grid.gamma_deg.push_back(reach * i / gammas); // the last one is dark
-  if (grid.gamma_deg.back() < 90) grid.gamma_deg.push_back(90);
-  else grid.gamma_deg.back() = 90;
+  if (grid.gamma_deg.back() < 90)
+    grid.gamma_deg.push_back(90);
+  else
+    grid.gamma_deg.back() = 90;
   grid.planes = 4 * std::clamp(static_cast<int>(std::ceil(90 * std::sin(glm::radians(reach)) / cell)), 9, 90);
   for (int plane = 0; plane < grid.planes; ++plane)
     for (const double gamma : grid.gamma_deg) {
@@ -53,8 +57,7 @@ scene::LuminaireGrid grid_of(const CastIntensity& cast) {
 std::string csv_of(const CastIntensity& cast) {
   std::string text = "right_deg,up_deg,wanted_cd,cast_cd\n";
   for (std::size_t c = 0; c < cast.cast.size(); ++c) {
-    const glm::dvec2 angles =
-        glm::degrees(glm::atan(cast.layout.middle_of_cell(c) / cast.layout.distances.front()));
+    const glm::dvec2 angles = glm::degrees(glm::atan(cast.layout.middle_of_cell(c) / cast.layout.distances.front()));
     fmt::format_to(std::back_inserter(text), "{:.4f},{:.4f},{:.6g},{:.6g}\n", angles.x, angles.y, cast.wanted[c],
                    cast.cast[c]);
   }
@@ -87,8 +90,8 @@ std::string svg_of(const CastIntensity& cast) {
   const auto curve = [&](const std::vector<double>& cells, const glm::dvec2& along, const char* style) {
     std::string path;
     for (double gamma = -89.5; gamma <= 89.5; gamma += 0.25)
-      path += (path.empty() ? "M" : "L") +
-              place(gamma, at_tangent(cast.layout, cells, std::tan(glm::radians(gamma)) * along) / most);
+      fmt::format_to(std::back_inserter(path), "{}{}", path.empty() ? "M" : "L",
+                     place(gamma, at_tangent(cast.layout, cells, std::tan(glm::radians(gamma)) * along) / most));
     text += fmt::format("<path d=\"{}\" stroke-width=\"0.4\" {}/>\n", path, style);
   };
   const std::pair<glm::dvec2, std::string> planes[] = {{{1, 0}, "crimson"}, {{0, 1}, "royalblue"}};
@@ -142,16 +145,17 @@ double at_tangent(const Layout& layout, const std::vector<double>& cells, const 
   return glm::mix(glm::mix(cell(0, 0), cell(1, 0), part.x), glm::mix(cell(0, 1), cell(1, 1), part.x), part.y);
 }
 
-CastIntensity cast_of(const RunState& run) {
-  const Settings& s = settings(run.preset);
-  CastIntensity cast{.layout = run.layout};
+CastIntensity cast_of(const preset::Preset& preset, const Layout& layout, const Target& wanted_light,
+                      const std::vector<double>& light) {
+  const Settings& s = settings(preset);
+  CastIntensity cast;
+  cast.layout = layout;
   cast.lumens = s.far->lumens.value_or(1000);
-  cast.on_front = part_on_front(run.layout, s);
-  const double a_facet = cast.lumens * cast.on_front / static_cast<double>(run.layout.facet_count());
-  const std::vector<double>& light = run.judgement->judge().light(0);
+  cast.on_front = part_on_front(layout, s);
+  const double a_facet = cast.lumens * cast.on_front / static_cast<double>(layout.facet_count());
   for (std::size_t c = 0; c < light.size(); ++c) {
-    cast.cast.push_back(a_facet * light[c] / steradians(run.layout, c));
-    cast.wanted.push_back(run.targets[0][c] / steradians(run.layout, c));
+    cast.cast.push_back(a_facet * light[c] / steradians(layout, c));
+    cast.wanted.push_back(wanted_light[c] / steradians(layout, c));
   }
   const double most = *std::ranges::max_element(cast.wanted);
   double wanted = 0, there = 0;
@@ -162,13 +166,14 @@ CastIntensity cast_of(const RunState& run) {
     if (cast.wanted[c] > bright * most) brightest.push_back(c);
   }
   for (const std::size_t c : target) {
-    wanted += cast.wanted[c] * steradians(run.layout, c);
-    there += cast.cast[c] * steradians(run.layout, c);
+    wanted += cast.wanted[c] * steradians(layout, c);
+    there += cast.cast[c] * steradians(layout, c);
   }
+  there = std::max(there, 1e-300); // a mesh that sends no light there
   cast.on_target = there / (cast.lumens * cast.on_front);
-  double over = 0, squares = 0, least = 1e300, sum = 0;
+  double over = 0, squares = 0, least = std::numeric_limits<double>::infinity(), sum = 0;
   for (const std::size_t c : target) {
-    const double angle = steradians(run.layout, c), is = cast.cast[c] / there * wanted - cast.wanted[c];
+    const double angle = steradians(layout, c), is = cast.cast[c] / there * wanted - cast.wanted[c];
     over += angle * is * is;
     squares += angle * cast.wanted[c] * cast.wanted[c];
   }
@@ -178,8 +183,8 @@ CastIntensity cast_of(const RunState& run) {
     sum += ratio;
   }
   cast.rms = std::sqrt(over / squares);
-  cast.uniformity = least / (sum / static_cast<double>(brightest.size()));
-  const double scale = wanted_candela(run.preset, run.layout).value_or(most * there / wanted) / most;
+  cast.uniformity = least / std::max(1e-300, sum / static_cast<double>(brightest.size()));
+  const double scale = wanted_candela(preset, layout).value_or(most * there / wanted) / most;
   for (double& value : cast.wanted) value *= scale;
   if (s.far->type == Intensity::Type::cutoff) cast.contrast = contrast_of(cast, *s.far);
   return cast;
@@ -197,7 +202,8 @@ void add_intensity_files(job::Snapshot& snapshot, const CastIntensity& cast, con
                                 to.write(std::as_bytes(std::span(words)));
                               }});
   };
-  add("intensity.ies", [](const CastIntensity& c, const std::string& of) { return scene::ies(grid_of(c), "judged", of); });
+  add("intensity.ies",
+      [](const CastIntensity& c, const std::string& of) { return scene::ies(grid_of(c), "judged", of); });
   add("intensity.ldt",
       [](const CastIntensity& c, const std::string& of) { return scene::eulumdat(grid_of(c), "judged", of); });
   add("intensity.csv", [](const CastIntensity& c, const std::string&) { return csv_of(c); });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The intensity that a judged object makes of a lamp's light, beside the one that is wanted: figures and files.
 #pragma once
-#include "inverse/report.h"
+#include "inverse/layout.h"
+#include "job/job.h"
 
 namespace nephroid::inverse {
 
@@ -12,13 +13,14 @@ struct CastIntensity {
   double lumens = 0;                ///< of the lamp
   double on_front = 0;              ///< the part of them on the front
   double on_target = 0;             ///< the part of those in the target: cells with over a hundredth of its largest
-  double rms = 0;        ///< root of the mean square of cast - wanted over that of wanted, over the target's solid angle
+  double rms = 0; ///< root of the mean square of cast - wanted over that of wanted, over the target's solid angle
   double uniformity = 0; ///< least over mean of the cast intensity, each over what is wanted, where that is over half
   std::optional<double> contrast; ///< cutoff: just below the level part of its cut over just above
 };
 
-/// The run must be judged.
-CastIntensity cast_of(const RunState& run);
+/// light: of each cell, in facets' incident light, as Judge::light().
+CastIntensity cast_of(const preset::Preset& preset, const Layout& layout, const Target& target,
+                      const std::vector<double>& light);
 
 void add_intensity_figures(job::Snapshot& snapshot, const CastIntensity& cast);
 

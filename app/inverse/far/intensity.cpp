@@ -92,8 +92,7 @@ struct Spread {
 Spread spread_of(const preset::Preset& preset, const Layout& layout, std::vector<std::string>& notes) {
   constexpr int samples = 8; // along a cell's side
   const Intensity& i = *settings(preset).far;
-  const glm::dvec2 half = layout.receiver / 2.0 / layout.distances.front(),
-                   size(i.size_deg[0], i.size_deg[1]);
+  const glm::dvec2 half = layout.receiver / 2.0 / layout.distances.front(), size(i.size_deg[0], i.size_deg[1]);
   std::optional<scene::Photometry> luminaire;
   std::vector<double> picture;
   if (i.type == Type::luminaire) luminaire = load_luminaire(preset);
@@ -164,14 +163,15 @@ Target far_target(const preset::Preset& preset, const Layout& layout, std::vecto
   if (const std::optional<double> candela = candela_of(*s.far, spread)) {
     const double needed = *candela / spread.most * light, there = lumens_on_front(layout, s);
     if (needed > there)
-      throw bad_input(own(preset) / (s.far->candela ? "candela" : "file"),
-                      fmt::format("asks for {:.4g} lm in all, up to {:.4g} cd, and of the lamp's {:.4g} lm {:.4g} fall on "
-                                  "the front",
-                                  needed, *candela, *s.far->lumens, there),
-                      fmt::format("expected at most {:.4g} cd", *candela * there / needed),
-                      s.far->candela ? "choose fewer candela, a brighter or nearer lamp, or a larger object"
-                                     : "remove 'lumens', with which a file's candela count, or choose a brighter or "
-                                       "nearer lamp");
+      throw bad_input(
+          own(preset) / (s.far->candela ? "candela" : "file"),
+          fmt::format("asks for {:.4g} lm in all, up to {:.4g} cd, and of the lamp's {:.4g} lm {:.4g} fall on "
+                      "the front",
+                      needed, *candela, *s.far->lumens, there),
+          fmt::format("expected at most {:.4g} cd", *candela * there / needed),
+          s.far->candela ? "choose fewer candela, a brighter or nearer lamp, or a larger object"
+                         : "remove 'lumens', with which a file's candela count, or choose a brighter or "
+                           "nearer lamp");
   }
   Target target;
   for (std::size_t c = 0; c < spread.cells.size(); ++c)

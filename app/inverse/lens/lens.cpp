@@ -118,9 +118,7 @@ std::uint64_t Lens::bytes(const Layout& layout) {
 glm::dvec2 Lens::from_corner(const glm::dvec2& p) const { return {p.x + domain_.x / 2, domain_.y / 2 - p.y}; }
 
 /// The same for a place of the receiver.
-glm::dvec2 Lens::drawn(const glm::dvec2& p) const {
-  return from_corner(layout_.shrink() * (p - layout_.offset(0)));
-}
+glm::dvec2 Lens::drawn(const glm::dvec2& p) const { return from_corner(layout_.shrink() * (p - layout_.offset(0))); }
 
 Grid Lens::wanted_of(const Target& target) const {
   return blurred(on_grid(layout_, most_cells(layout_), layout_.receiver * layout_.shrink(), layout_.cells, target));
