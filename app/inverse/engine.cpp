@@ -15,16 +15,25 @@ namespace {
 
 /// A receiver with a drawing casts it now, or else the first one.
 engine::PictureEdit take_picture(preset::Preset& preset, const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  const auto picture_of = [&] {
+    Picture picture;
+    picture.type = Picture::Type::file;
+    picture.file = std::filesystem::absolute(file).string();
+    return picture;
+  };
+  if (std::optional<Intensity>& far = settings(preset).far) {
+    far->type = Intensity::Type::picture;
+    far->picture = picture_of();
+    return {"cast " + name, name + " is the intensity; Parameters has its angles"};
+  }
   std::vector<Receiver>& receivers = settings(preset).receivers;
   if (receivers.empty())
     throw bad_input(file.string(), "the preset has no receiver to cast it on", "", "add one in Parameters");
   auto receiver =
       std::ranges::find_if(receivers, [](const Receiver& r) { return r.picture.type != Picture::Type::file; });
   if (receiver == receivers.end()) receiver = receivers.begin();
-  receiver->picture = {};
-  receiver->picture.type = Picture::Type::file;
-  receiver->picture.file = std::filesystem::absolute(file).string();
-  const std::string name = file.filename().string();
+  receiver->picture = picture_of();
   return {"cast " + name,
           fmt::format("{} is the picture at {:g} mm; Parameters has the others", name, receiver->distance_mm)};
 }

@@ -139,7 +139,8 @@ std::string material_of(const Settings& s, double n) {
 }
 
 CastIntensity cast_far(const RunState& run) {
-  return cast_of(run.preset, run.layout, run.targets.front(), run.judgement->judge().light(0));
+  return cast_of(run.preset, run.layout, run.targets.front(), run.judgement->judge().light(0),
+                 run.judgement->judge().outcomes().sent);
 }
 
 } // namespace

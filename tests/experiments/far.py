@@ -18,7 +18,7 @@ import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh
 
-INDEX, SIZE, THICK, LAMP, AWAY = 1.49, 100.0, 30.0, 20.0, 200.0
+INDEX, SIZE, THICK, LAMP, AWAY = 1.49, 100.0, 12.0, 20.0, 200.0
 CELLS = 64
 
 
@@ -153,9 +153,9 @@ class Solid:
 
 
 def trace(solid, half, rays, lambert, seed):
-    """Light of each cell as parts of what falls on the front."""
+    """Light of each cell, and all that is sent, as parts of what falls on the front."""
     random = np.random.default_rng(seed)
-    light, on_front = np.zeros((CELLS, CELLS)), 0.0
+    light, on_front, sent_in_all = np.zeros((CELLS, CELLS)), 0.0, 0.0
     for _ in range(max(1, rays // 500_000)):
         count = 500_000
         turn, r = random.random(count) * 2 * np.pi, LAMP / 2 * np.sqrt(random.random(count))
@@ -168,11 +168,12 @@ def trace(solid, half, rays, lambert, seed):
         on_front += power.sum()
         out, power = solid.follow(at - ways, ways, power)
         sent = power > 0
+        sent_in_all += power.sum()
         t = out[sent, :2] / -out[sent, 2:]
         cell = np.floor((t / half * [1, -1] + 1) / 2 * CELLS).astype(int)
         inside = ((cell >= 0) & (cell < CELLS)).all(1)
         np.add.at(light, (cell[inside, 1], cell[inside, 0]), power[sent][inside])
-    return light / on_front
+    return light / on_front, sent_in_all / on_front
 
 
 def steradians(half):
@@ -196,7 +197,8 @@ def judge(out, name, more, rays, lambert):
     wanted = wanted_at(name, more, tx[None], -ty[:, None]).reshape(CELLS, fine, CELLS, fine).mean((1, 3))
     angle, target = steradians(half), wanted > 0.01 * wanted.max()
     solid = Solid(out / "object.stl")
-    halves = [trace(solid, half, rays // 2, lambert, seed) / angle for seed in (1, 2)]
+    traced = [trace(solid, half, rays // 2, lambert, seed) for seed in (1, 2)]
+    halves, sent = [light / angle for light, _ in traced], np.mean([all_sent for _, all_sent in traced])
     rms, _ = rms_of((halves[0] + halves[1]) / 2, wanted, angle, target)
     mean = (halves[0] + halves[1]) / 2
     scale = (wanted * angle)[target].sum() / (mean * angle)[target].sum()
@@ -205,7 +207,7 @@ def judge(out, name, more, rays, lambert):
     there = (mean * angle)[target].sum()
     own = json.loads((out / "run.json").read_text())
     figures = own.get("far") or own["inverse"]["far"]
-    print(f"{name:10} {rms:7.4f} {noise:7.4f} {there:7.3f} {(mean * angle).sum():7.3f}"
+    print(f"{name:10} {rms:7.4f} {noise:7.4f} {there:9.3f} {there / sent:7.3f}"
           f"   {figures['rms']:7.4f} {figures['on_target']:7.3f} {figures['uniformity']:7.3f}"
           f" {figures.get('contrast', float('nan')):7.2f}", flush=True)
 
@@ -221,7 +223,7 @@ def main():
     parser.add_argument("--set", action="append", default=[])
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
-    print("target       rms   noise  on_target  sent | judge: rms on_target uniformity contrast")
+    print("target         rms  noise on_target of_sent | judge: rms on_target uniformity contrast")
     for name in args.names or [*SHAPES, *FILES]:
         far = {"type": "luminaire", "file": name} if name in FILES else {
             "type": "picture" if name == "ring" else name, **SHAPES[name][1]}

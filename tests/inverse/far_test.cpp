@@ -24,11 +24,12 @@ protected:
 
   static preset::Preset read(const std::string& far, const std::string& more = "",
                              const preset::Overrides& overrides = {}) {
+    const std::string lamp =
+        more.find("\"light\"") == std::string::npos ? R"(, "light": {"type": "point", "distance_mm": 300})" : "";
     return preset::parse_preset(R"({"engine": "inverse", "inverse": {"far": )" + far +
                                     R"(, "method": "lens", "size_mm": [60, 60], "facets": [64, 64], "cells": [32, 32],
-                                     "thickness_mm": 20, "index": 1.5, "mesh_error": 0.2,
-                                     "light": {"type": "point", "distance_mm": 300})" +
-                                    more + "}}",
+                                     "thickness_mm": 20, "index": 1.5, "mesh_error": 0.2)" +
+                                    lamp + more + "}}",
                                 "own.json", overrides);
   }
   static std::string refusal(const std::string& far, const std::string& more = "",
@@ -56,7 +57,7 @@ protected:
         const double away = std::hypot(g - 20, std::remainder(5.0 * i - c, 360) * std::sin(glm::radians(1.0 * g)));
         text += fmt::format("\n{}", away < 6 ? sign * 500 : 0);
       }
-    return folder.write("spot.ies", text).string();
+    return folder.write("spot.ies", text);
   }
 };
 
@@ -78,7 +79,9 @@ TEST_F(Far, AnEvenRectangleIsEvenInIntensity) {
   for (std::size_t c = 0; c < target.size(); ++c) {
     const glm::dvec2 angle = glm::degrees(glm::atan(layout.middle_of_cell(c) / layout.distances.front()));
     if (std::abs(angle.x) < 27 && std::abs(angle.y) < 17) within.push_back(target[c] / steradians(layout, c));
-    if (std::abs(angle.x) > 33 || std::abs(angle.y) > 23) EXPECT_EQ(target[c], 0);
+    if (std::abs(angle.x) > 33 || std::abs(angle.y) > 23) {
+      EXPECT_EQ(target[c], 0);
+    }
   }
   const auto [least, most] = std::ranges::minmax(within);
   EXPECT_NEAR(least, most, 1e-9 * most);
@@ -158,14 +161,14 @@ TEST_F(Far, APlateKeepsALampsCandela) {
   std::vector<std::string> notes;
   const Target target = far_target(preset, layout, notes);
   const Lens flat(layout, target, 0.3, Location("own.json") / "inverse");
-  const CastIntensity cast = cast_of(preset, layout, target, judged(layout, flat.solid()));
+  const CastIntensity cast = cast_of(preset, layout, target, judged(layout, flat.solid()), 1);
   const double through = 0.96 * 0.96, expected = 1000 / (4 * glm::pi<double>()) * through;
   EXPECT_NEAR(at_tangent(layout, cast.cast, {0, 0}), expected, 0.04 * expected) << "noise of one cell";
   const double mean = std::accumulate(cast.cast.begin(), cast.cast.end(), 0.0) / static_cast<double>(target.size());
   EXPECT_NEAR(mean, expected, 5e-3 * expected);
   EXPECT_NEAR(cast.on_front, 4 * std::asin(30 * 30 / (30.0 * 30 + 300 * 300)) / (4 * glm::pi<double>()), 1e-6);
   EXPECT_NEAR(cast.on_target, 4 * std::asin(std::pow(std::sin(glm::radians(4.0)), 2)) * mean / (1000 * cast.on_front),
-              0.03 * cast.on_target);
+              0.04 * cast.on_target) << "the target is whole cells";
 }
 
 /// A lamp by Lambert's law, small and on the axis of a round front, sends sin^2 of the angle to its rim into it.
@@ -183,10 +186,11 @@ TEST_F(Far, FilesReadAsTheyWereCast) {
   const Target target = far_target(preset, layout, notes);
   std::vector<double> light;
   for (const double t : target) light.push_back(0.8 * t * static_cast<double>(layout.facet_count()));
-  const CastIntensity cast = cast_of(preset, layout, target, light);
+  const CastIntensity cast = cast_of(preset, layout, target, light, 0.8);
   EXPECT_NEAR(cast.rms, 0, 1e-9);
   EXPECT_NEAR(cast.uniformity, 1, 1e-9);
   EXPECT_NEAR(cast.on_target, 0.8, 2e-3);
+  EXPECT_NEAR(cast.of_sent, 1, 3e-3);
   job::Snapshot made;
   add_intensity_files(made, cast, "an ellipse");
   for (const char* name : {"intensity.ies", "intensity.ldt"}) {
@@ -196,7 +200,7 @@ TEST_F(Far, FilesReadAsTheyWereCast) {
     for (const auto& [gamma, c] : {std::pair{0.0, 0.0}, {15.0, 0.0}, {15.0, 180.0}, {8.0, 90.0}, {8.0, 270.0}}) {
       const double turn = glm::radians(c), t = std::tan(glm::radians(gamma)),
                    right = at_tangent(layout, cast.cast, t * glm::dvec2(std::cos(turn), std::sin(turn)));
-      EXPECT_NEAR(scene::intensity(read, gamma, c) / unit, right, 0.02 * cast.cast[layout.cell_count() / 2])
+      EXPECT_NEAR(scene::intensity(read, gamma, c) / unit, right, 0.02 * *std::ranges::max_element(cast.cast))
           << name << gamma << ' ' << c;
     }
   }
@@ -216,14 +220,14 @@ TEST_F(Far, ALargeLampIsAllowedFor) {
   const double first = lens.costs().front().rel_l2;
   while (!lens.finished() && lens.steps() < lens.most()) lens.advance();
   EXPECT_LT(lens.costs().front().rel_l2, 0.6 * first);
-  const CastIntensity cast = cast_of(preset, layout, target, judged(layout, lens.solid()));
+  const CastIntensity cast = cast_of(preset, layout, target, judged(layout, lens.solid()), 1);
   EXPECT_LT(cast.rms, 0.06);
   EXPECT_GT(cast.on_target, 0.85);
 }
 
 TEST_F(Far, Refusals) {
   const std::string plain = R"({"type": "rectangle", "size_deg": [20, 20]})";
-  EXPECT_EQ(refusal(plain), "");
+  EXPECT_NO_THROW(make_plan(read(plain)));
   EXPECT_THAT(refusal(plain, R"(, "light": {"type": "area", "size_mm": [61, 10]})"),
               AllOf(HasSubstr("#/inverse/light/size_mm: is 61 x 10 mm, and the object 60 x 60 mm"),
                     HasSubstr("choose a smaller lamp")));
@@ -231,7 +235,7 @@ TEST_F(Far, Refusals) {
               HasSubstr("#/inverse/receivers: stand beside 'far'"));
   EXPECT_THAT(refusal(plain, R"(, "receiver_mm": [50, 50])"), HasSubstr("#/inverse/receiver_mm"));
   EXPECT_THAT(refusal(plain, "", {"inverse.method=thesis"}), HasSubstr("choose the method 'lens' or 'assign'"));
-  EXPECT_THAT(refusal(R"({"type": "rectangle", "size_deg": [100, 20]})"),
+  EXPECT_THAT(refusal(R"({"type": "rectangle", "size_deg": [120, 20]})"),
               AllOf(HasSubstr("#/inverse/far: light must go"), HasSubstr("choose a narrower target")));
   EXPECT_THAT(refusal(R"({"type": "rectangle", "size_deg": [0.1, 0.1]})"), HasSubstr("choose fewer cells"));
   EXPECT_THAT(refusal(R"({"type": "rectangle", "candela": 10})"), HasSubstr("#/inverse/far/lumens: is not given"));
@@ -242,7 +246,7 @@ TEST_F(Far, Refusals) {
               HasSubstr("has an intensity of -500"));
   EXPECT_THAT(refusal(R"({"type": "luminaire", "lumens": 100, "file": ")" + spot(0) + "\"}"),
               AllOf(HasSubstr("#/inverse/far/file: asks for "), HasSubstr("remove 'lumens'")));
-  const std::string cut = folder.write("cut.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 10 1 1 2").string();
+  const std::string cut = folder.write("cut.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 10 1 1 2");
   EXPECT_THAT(refusal(R"({"type": "luminaire", "file": ")" + cut + "\"}"), HasSubstr("the file ends before"));
   EXPECT_THAT(refusal(R"({"type": "luminaire", "file": "none.ies"})"), HasSubstr("none.ies"));
   EXPECT_THAT(refusal(R"({"type": "picture", "size_deg": [20, 20], "picture": {"type": "ring", "radius": 0.1}})"),

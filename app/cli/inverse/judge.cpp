@@ -104,6 +104,7 @@ private:
 /// All that is told.
 struct Verdict {
   Layout layout, focus;
+  double part = 0; ///< how much nearer and farther the screens of `focus` are; 0: there are none
   std::vector<inverse::Target> targets;
   std::optional<Cast> designed; ///< where something else is judged than the design in its own light
   Cast now, through;
@@ -111,14 +112,14 @@ struct Verdict {
 };
 
 /// Where rel_l2 is half as much again as at its best, in parts of the distance; to either side.
-std::string depth_of_focus(const Verdict& v, std::size_t receiver, double part) {
+std::string depth_of_focus(const Verdict& v, std::size_t receiver) {
   const auto rel_l2 = [&](int k) {
     return v.through.costs[receiver * focus_steps + static_cast<std::size_t>(k)].rel_l2;
   };
   int best = 0;
   for (int k = 1; k < focus_steps; ++k)
     if (rel_l2(k) < rel_l2(best)) best = k;
-  const auto percent = [&](double k) { return 100 * part * (2 * k / (focus_steps - 1) - 1); };
+  const auto percent = [&](double k) { return 100 * v.part * (2 * k / (focus_steps - 1) - 1); };
   const double limit = 1.5 * rel_l2(best);
   const auto end = [&](int step) {
     for (int k = best; k + step >= 0 && k + step < focus_steps; k += step)
@@ -130,12 +131,16 @@ std::string depth_of_focus(const Verdict& v, std::size_t receiver, double part) 
                      v.focus.distances[receiver * focus_steps + static_cast<std::size_t>(best)], end(-1), end(1));
 }
 
-void print(const Verdict& v, double part) {
+std::string distance_of(const Layout& layout, std::size_t receiver) {
+  return layout.far ? "far" : fmt::format("{:.6g}", layout.distances[receiver]);
+}
+
+void print(const Verdict& v) {
   fmt::print("{:>8} {:>9} {:>7} {:>7} {:>7} {:>7}{}\n", "picture", "at mm", "cost", "rel_l2", "noise", "missed",
              v.designed ? "   designed: cost, rel_l2" : "");
   for (std::size_t j = 0; j < v.targets.size(); ++j) {
     const Cost& c = v.now.costs[j];
-    fmt::print("{:>8} {:>9.6g} {:>7.4f} {:>7.4f} {:>7.4f} {:>7.4f}", j + 1, v.layout.distances[j], c.cost, c.rel_l2,
+    fmt::print("{:>8} {:>9} {:>7.4f} {:>7.4f} {:>7.4f} {:>7.4f}", j + 1, distance_of(v.layout, j), c.cost, c.rel_l2,
                v.now.noise[j].rel_l2, c.missed);
     if (v.designed) fmt::print("{:>17.4f} {:>7.4f}", v.designed->costs[j].cost, v.designed->costs[j].rel_l2);
     fmt::print("\n");
@@ -143,9 +148,9 @@ void print(const Verdict& v, double part) {
   const RayOutcomes& f = v.now.outcomes;
   fmt::print("light: {:.1f} % sent, {:.1f} % reflected, {:.1f} % lost, {:.1f} % by walls\n", 100 * f.sent,
              100 * f.reflected, 100 * f.lost, 100 * f.by_walls);
-  if (part > 0)
+  if (v.part > 0)
     for (std::size_t j = 0; j < v.targets.size(); ++j)
-      fmt::print("through focus, picture {}: {}\n", j + 1, depth_of_focus(v, j, part));
+      fmt::print("through focus, picture {}: {}\n", j + 1, depth_of_focus(v, j));
   for (std::size_t j = 0; j < v.deviations.size(); ++j)
     fmt::print(
         "surface, picture {}: half of it sends light within {:.3f} cells of its place, {:.1f} % more than a cell "
@@ -160,14 +165,14 @@ Json to_json(const std::vector<Cost>& costs, std::size_t i) {
           {"missed", costs[i].missed}};
 }
 
-Json to_json(const Verdict& v, double part) {
+Json to_json(const Verdict& v) {
   Json receivers = Json::array();
   for (std::size_t j = 0; j < v.targets.size(); ++j) {
     Json receiver{{"distance_mm", v.layout.distances[j]},
                   {"judged", to_json(v.now.costs, j)},
                   {"noise_rel_l2", v.now.noise[j].rel_l2}};
     if (v.designed) receiver["designed"] = to_json(v.designed->costs, j);
-    for (std::size_t k = 0; part > 0 && k < focus_steps; ++k) {
+    for (std::size_t k = 0; v.part > 0 && k < focus_steps; ++k) {
       const std::size_t screen = j * focus_steps + k;
       Json row{{"distance_mm", v.focus.distances[screen]}};
       row.update(to_json(v.through.costs, screen));
@@ -212,14 +217,15 @@ void write_film(const fs::path& folder, const Verdict& v) {
 void write_files(const JudgeOptions& options, const Verdict& v) {
   std::error_code error;
   const fs::path film = options.folder / "focus";
-  fs::create_directories(options.focus > 0 ? film : options.folder, error);
+  fs::create_directories(v.part > 0 ? film : options.folder, error);
   if (error) throw failed(options.folder, error.message(), "expected a folder that can be made");
-  write_file_whole(options.folder / "judge.json", to_json(v, options.focus / 100).dump(2) + "\n");
+  write_file_whole(options.folder / "judge.json", to_json(v).dump(2) + "\n");
   std::vector<std::vector<Captioned>> columns;
   for (std::size_t j = 0; j < v.targets.size(); ++j) {
     const double most = *std::ranges::max_element(v.targets[j]);
     const auto wanted = grey_picture(v.targets[j], 1 / most, v.layout.cells);
-    columns.push_back({{wanted, fmt::format("wanted at {:.6g} mm", v.layout.distances[j])}});
+    columns.push_back({{wanted, v.layout.far ? "wanted, over tangents of angles"
+                                             : fmt::format("wanted at {} mm", distance_of(v.layout, j))}});
     if (v.designed)
       columns.back().push_back({v.designed->pictures[j], fmt::format("designed: {:.3f}", v.designed->costs[j].rel_l2)});
     columns.back().push_back({v.now.pictures[j], fmt::format("judged: rel_l2 {:.3f}", v.now.costs[j].rel_l2)});
@@ -231,7 +237,7 @@ void write_files(const JudgeOptions& options, const Verdict& v) {
                   *grey_picture(v.deviations[j].off, 1, v.layout.facets));
   const auto whole = sheet(columns, v.layout.receiver, 1280, 960);
   image::write_png(options.folder / "judge.png", whole->width, whole->height, whole->rgb);
-  if (options.focus == 0) return;
+  if (v.part == 0) return;
   std::string csv = "receiver,distance_mm,cost,rel_l2,missed\n";
   for (std::size_t i = 0; i < v.focus.distances.size(); ++i) {
     const Cost& cost = v.through.costs[i];
@@ -280,16 +286,17 @@ void judge(const JudgeOptions& options) {
   v.now = judging.cast(v.layout, v.targets, now.solid, "judged");
   if (has_design && (!is_run || !options.overrides.empty()) && designed.design->targets.size() == v.targets.size())
     v.designed = judging.cast(designed.layout(), designed.design->targets, designed.solid, "designed");
-  if (options.focus > 0) {
-    v.focus = through_focus(v.layout, options.focus / 100, focus_steps);
+  v.part = v.layout.far ? 0 : options.focus / 100;
+  if (v.part > 0) {
+    v.focus = through_focus(v.layout, v.part, focus_steps);
     v.through = judging.cast(v.focus, through_focus(v.targets, focus_steps), now.solid, "through focus");
   }
   for (std::size_t j = 0; has_design && !is_run && j < v.targets.size(); ++j)
     v.deviations.push_back(deviation(v.layout, designed.solid, now.solid, j));
   if (options.json)
-    fmt::print("{}\n", json_text(to_json(v, options.focus / 100)));
+    fmt::print("{}\n", json_text(to_json(v)));
   else
-    print(v, options.focus / 100);
+    print(v);
   if (!options.folder.empty()) write_files(options, v);
 }
 

@@ -34,15 +34,16 @@ void show_pictures(const PicturesOptions& options) {
   const Design& design = *plan.design;
   std::vector<std::vector<Captioned>> columns;
   for (std::size_t j = 0; j < design.targets.size(); ++j) {
+    const std::string where = design.layout.far ? "far away" : fmt::format("at {} mm", design.layout.distances[j]);
     const inverse::Target &target = design.targets[j], &best = design.best()[j];
     const double most = *std::max_element(target.begin(), target.end()), off = cost_of(target, best, 1).rel_l2;
     const auto wanted = grey_picture(target, 1 / most, design.layout.cells),
                at_best = grey_picture(best, 1 / most, design.layout.cells);
-    columns.push_back({{wanted, fmt::format("wanted at {} mm", design.layout.distances[j])},
+    columns.push_back({{wanted, "wanted " + where},
                        {at_best, fmt::format("at best: {:.3f} off", off)},
                        {difference_picture(*wanted, *at_best), "red: too much, blue: too little"}});
-    fmt::print("picture {} at {} mm: at best {:.3f} off (rel_l2), brightest {:.1f} times an even picture\n", j + 1,
-               design.layout.distances[j], off, most * static_cast<double>(target.size()));
+    fmt::print("picture {} {}: at best {:.3f} off (rel_l2), brightest {:.1f} times an even picture\n", j + 1, where,
+               off, most * static_cast<double>(target.size()));
   }
   for (const std::string& note : notes_of(preset, design)) fmt::print(stderr, "note: {}\n", note);
   if (options.picture.empty()) return;

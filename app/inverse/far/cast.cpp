@@ -115,6 +115,7 @@ std::vector<Figure> figures_of(const CastIntensity& cast) {
       {"lumens", "lm", "of the lamp", cast.lumens},
       {"on_front", "", "the part of them that falls on the front", cast.on_front},
       {"on_target", "", "the part of those that goes to the target", cast.on_target},
+      {"on_target_of_sent", "", "the part of what the object sends forward", cast.of_sent},
       {"on_target_of_lamp", "", "the part of the lamp's", cast.on_target * cast.on_front},
       {"wanted_cd", "cd", "the largest wanted intensity", *std::ranges::max_element(cast.wanted)},
       {"cast_cd", "cd", "the largest cast intensity", *std::ranges::max_element(cast.cast)},
@@ -146,7 +147,7 @@ double at_tangent(const Layout& layout, const std::vector<double>& cells, const 
 }
 
 CastIntensity cast_of(const preset::Preset& preset, const Layout& layout, const Target& wanted_light,
-                      const std::vector<double>& light) {
+                      const std::vector<double>& light, double sent) {
   const Settings& s = settings(preset);
   CastIntensity cast;
   cast.layout = layout;
@@ -171,6 +172,7 @@ CastIntensity cast_of(const preset::Preset& preset, const Layout& layout, const 
   }
   there = std::max(there, 1e-300); // a mesh that sends no light there
   cast.on_target = there / (cast.lumens * cast.on_front);
+  cast.of_sent = sent > 0 ? cast.on_target / sent : 0;
   double over = 0, squares = 0, least = std::numeric_limits<double>::infinity(), sum = 0;
   for (const std::size_t c : target) {
     const double angle = steradians(layout, c), is = cast.cast[c] / there * wanted - cast.wanted[c];

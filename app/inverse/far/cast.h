@@ -13,14 +13,15 @@ struct CastIntensity {
   double lumens = 0;                ///< of the lamp
   double on_front = 0;              ///< the part of them on the front
   double on_target = 0;             ///< the part of those in the target: cells with over a hundredth of its largest
+  double of_sent = 0;               ///< the part of what the object sends forward that is there
   double rms = 0; ///< root of the mean square of cast - wanted over that of wanted, over the target's solid angle
   double uniformity = 0; ///< least over mean of the cast intensity, each over what is wanted, where that is over half
   std::optional<double> contrast; ///< cutoff: just below the level part of its cut over just above
 };
 
-/// light: of each cell, in facets' incident light, as Judge::light().
+/// light: of each cell, in facets' incident light, as Judge::light(). sent: RayOutcomes::sent.
 CastIntensity cast_of(const preset::Preset& preset, const Layout& layout, const Target& target,
-                      const std::vector<double>& light);
+                      const std::vector<double>& light, double sent);
 
 void add_intensity_figures(job::Snapshot& snapshot, const CastIntensity& cast);
 

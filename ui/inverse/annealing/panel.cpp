@@ -156,6 +156,7 @@ void AnnealingPanel::draw_receivers(const Context& context) {
 
 /// Between its neighbours.
 void AnnealingPanel::draw_distance(const Context& context, std::size_t receiver) {
+  if (settings_.far) return ImGui::TextUnformatted("far away");
   const auto& receivers = settings_.receivers;
   constexpr double apart = 0.1; // millimetres
   const double low = receiver > 0 ? receivers[receiver - 1].distance_mm + apart : apart,
@@ -171,6 +172,7 @@ void AnnealingPanel::draw_distance(const Context& context, std::size_t receiver)
 }
 
 void AnnealingPanel::draw_weight(const Context& context, std::size_t receiver) {
+  if (settings_.far) return;
   const double now = settings_.receivers[receiver].weight;
   ImGui::SetNextItemWidth(-1);
   draw_dragged(context, gestures_,
