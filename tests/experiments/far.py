@@ -18,7 +18,7 @@ import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh
 
-INDEX, SIZE, THICK, LAMP, AWAY = 1.49, 100.0, 12.0, 20.0, 200.0
+INDEX, SIZE, THICK, LAMP, AWAY = 1.49, 100.0, 13.0, 20.0, 200.0
 CELLS = 64
 
 

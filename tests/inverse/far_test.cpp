@@ -168,7 +168,8 @@ TEST_F(Far, APlateKeepsALampsCandela) {
   EXPECT_NEAR(mean, expected, 5e-3 * expected);
   EXPECT_NEAR(cast.on_front, 4 * std::asin(30 * 30 / (30.0 * 30 + 300 * 300)) / (4 * glm::pi<double>()), 1e-6);
   EXPECT_NEAR(cast.on_target, 4 * std::asin(std::pow(std::sin(glm::radians(4.0)), 2)) * mean / (1000 * cast.on_front),
-              0.04 * cast.on_target) << "the target is whole cells";
+              0.04 * cast.on_target)
+      << "the target is whole cells";
 }
 
 /// A lamp by Lambert's law, small and on the axis of a round front, sends sin^2 of the angle to its rim into it.
@@ -222,7 +223,7 @@ TEST_F(Far, ALargeLampIsAllowedFor) {
   EXPECT_LT(lens.costs().front().rel_l2, 0.6 * first);
   const CastIntensity cast = cast_of(preset, layout, target, judged(layout, lens.solid()), 1);
   EXPECT_LT(cast.rms, 0.06);
-  EXPECT_GT(cast.on_target, 0.85);
+  EXPECT_GT(cast.on_target, 0.75) << "the sides of an object 20 mm thick stop a sixth, both faces reflect 8 %";
 }
 
 TEST_F(Far, Refusals) {

@@ -314,7 +314,8 @@ Solid Lens::solid() const {
   const auto refuse = [&](const Location& where, double value) {
     throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach),
                     fmt::format("expected at least {:.4g} mm", reach / most_of_room),
-                    "choose a larger value or a receiver further away");
+                    layout_.far ? "choose a larger value or a narrower target"
+                                : "choose a larger value or a receiver further away");
   };
   if (reach > most_of_room * layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
   if (reach > most_of_room * layout_.distances.front())
