@@ -15,6 +15,17 @@ find_package(date REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
 find_package(MPI QUIET COMPONENTS CXX) # without it a run is one process
+# STEP files. The toolkits' names are those of 7.6 or of 7.8 and later.
+find_package(OpenCASCADE QUIET COMPONENTS FoundationClasses ModelingData ModelingAlgorithms DataExchange)
+if(TARGET TKSTEP OR TARGET TKDESTEP)
+  set(NEPHROID_OPENCASCADE ON)
+  add_library(nephroid_opencascade INTERFACE)
+  target_include_directories(nephroid_opencascade SYSTEM INTERFACE ${OpenCASCADE_INCLUDE_DIR})
+  target_link_libraries(nephroid_opencascade INTERFACE $<IF:$<TARGET_EXISTS:TKDESTEP>,TKDESTEP,TKSTEP> TKXSBase
+    TKShHealing TKTopAlgo TKGeomAlgo TKBRep TKG3d TKG2d TKMath TKernel)
+else()
+  message(STATUS "OpenCascade is not found: no STEP files (libocct-data-exchange-dev)")
+endif()
 # OpenImageIO's own CMake package fails on Debian 12 without openimageio-tools; pkg-config works.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(lcms2 REQUIRED IMPORTED_TARGET lcms2)

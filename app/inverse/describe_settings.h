@@ -329,6 +329,10 @@ inline void describe(preset::Fields& v, Settings& s) {
           "Judges the object with errors of making and of putting it up, too; takes five times as long again as to "
           "judge it.",
           s.tolerances);
+  v.field("step",
+          "Whether the object is written as object.step, too: planar faces or a B-spline surface. It takes the package "
+          "nephroid-workshop, and minutes where there are many facets.",
+          s.step);
   v.field("receivers", "The screens that light reaches, the nearest first.", s.receivers, {.count = {1, 16}});
   v.field("far",
           "An intensity over directions in place of 'receivers', which there are none of then. 'cells' are of its "

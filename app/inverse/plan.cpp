@@ -11,6 +11,7 @@
 #include "inverse/light.h"
 #include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
+#include "inverse/step/step.h"
 #include "inverse/thesis/pipeline.h"
 #include "inverse/tolerances.h"
 
@@ -85,6 +86,7 @@ const LensForecast& Design::lens() const {
 
 InversePlan make_plan(const preset::Preset& preset) {
   const Settings& s = settings(preset);
+  if (s.step) require_step(Location(preset.source) / "inverse" / "step");
   InversePlan plan;
   plan.design = std::make_shared<const Design>(preset);
   const Layout& l = plan.design->layout;

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/report.h"
 
+#include "base/counted.h"
 #include "inverse/diffraction.h"
 #include "inverse/facets/files.h"
 #include "inverse/far/cast.h"
 #include "inverse/glass_view.h"
 #include "inverse/object_view.h"
 #include "inverse/print_page.h"
+#include "inverse/step/step.h"
+#include "plan/plan.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 namespace nephroid::inverse {
@@ -130,6 +134,29 @@ void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& soli
        {"triangles", static_cast<double>(solid.mesh.triangles.size())}});
 }
 
+/// The STEP file and its sentence in workshop.md, of whichever is asked for first: it takes minutes.
+class StepOnce {
+public:
+  StepOnce(std::shared_ptr<const Layout> layout, std::shared_ptr<const Solid> solid, std::string name)
+      : layout_(std::move(layout)), solid_(std::move(solid)), name_(std::move(name)) {}
+  const StepFile& file() const {
+    std::call_once(made_, [&] { file_ = step_file(*layout_, *solid_, name_); });
+    return file_;
+  }
+  std::string sentence() const {
+    return fmt::format("- `object.step`: {} in {}, AP214; OpenCascade reads it back as one closed solid of {:.6g} cm3.\n",
+                       counted(file().faces, "face"), plan::readable_bytes(file().bytes.size()),
+                       file().volume / 1000);
+  }
+
+private:
+  std::shared_ptr<const Layout> layout_;
+  std::shared_ptr<const Solid> solid_;
+  std::string name_;
+  mutable std::once_flag made_;
+  mutable StepFile file_;
+};
+
 std::string material_of(const Settings& s, double n) {
   if (s.kind == Settings::Kind::mirror) return "a mirror";
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
@@ -227,6 +254,11 @@ void add_files(job::Snapshot& snapshot, const RunState& run) {
   };
   add("object.obj", [](const Layout&, const Solid& solid, ByteSink& to) { write_obj(solid.mesh, to); });
   add("object.stl", [](const Layout&, const Solid& solid, ByteSink& to) { write_stl(solid.mesh, to); });
+  if (judgement.solid()->mesh.triangles.size() <= most_3mf_triangles)
+    add("object.3mf", [](const Layout&, const Solid& solid, ByteSink& to) { write_3mf(solid.mesh, to); });
+  else
+    snapshot.warnings.push_back(fmt::format("object.3mf is left out: the object has more than {} million triangles",
+                                            most_3mf_triangles / 1'000'000));
   add("object.ply",
       [](const Layout&, const Solid& solid, ByteSink& to) { scene::write_ply(solid.mesh, to, mesh_title); });
   add("facets.json", write_facets);
@@ -248,9 +280,18 @@ void add_files(job::Snapshot& snapshot, const RunState& run) {
     csv = tolerance_csv(run.costs(), tolerances->rows());
   }
   const Settings& s = settings(run.preset);
+  std::shared_ptr<const StepOnce> step;
+  if (s.step) {
+    step = std::make_shared<const StepOnce>(layout, judgement.solid(), name);
+    snapshot.files.push_back({"object.step", [step](ByteSink& to) {
+                                to.write(std::as_bytes(std::span(step->file().bytes)));
+                              }});
+  }
   add_text("workshop.md",
-           [material = material_of(s, run.layout.n), table, making = Manufacturing{s.tool_radius_mm, s.layer_mm}](
-               const Layout& of, const Solid& solid) { return workshop_page(of, solid, material, making) + table; });
+           [material = material_of(s, run.layout.n), table, step,
+            making = Manufacturing{s.tool_radius_mm, s.layer_mm}](const Layout& of, const Solid& solid) {
+             return workshop_page(of, solid, material, making) + (step ? step->sentence() : "") + table;
+           });
   if (!csv.empty()) add_text("tolerance.csv", [csv](const auto&...) { return csv; });
   add_text("print_object.svg", [name](const Layout& of, const Solid&) { return object_page(of, name); });
   if (run.layout.far) add_intensity_files(snapshot, cast_far(run), name);

@@ -141,6 +141,7 @@ struct Settings {
   bool tolerances = false;                            ///< whether objects with errors are judged, too
   std::vector<Receiver> receivers{1};                 ///< the nearest first
   std::optional<Intensity> far{};                     ///< in place of the receivers
+  bool step = false;                                  ///< whether object.step is written
   Thesis thesis{};                                    ///< constants of the method thesis
   bool operator==(const Settings&) const = default;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/facets/files.h"
 
+#include "base/zip.h"
 #include "inverse/facets/tool.h"
 #include "inverse/light.h"
 
@@ -89,6 +90,40 @@ void write_stl(const scene::Mesh& mesh, ByteSink& to) {
   }
 }
 
+void write_3mf(const scene::Mesh& mesh, ByteSink& to) {
+  const auto text = [](const char* words) {
+    return [words](ByteSink& part) { write_text(words, part); };
+  };
+  const auto model = [&](ByteSink& part) {
+    write_text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+               "<model unit=\"millimeter\" xml:lang=\"en-US\" "
+               "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+               "<metadata name=\"Application\">Nephroid</metadata>\n"
+               "<resources><object id=\"1\" type=\"model\" name=\"object\"><mesh>\n<vertices>\n",
+               part);
+    for (const glm::vec3& p : mesh.positions)
+      write_text(fmt::format("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", p.x, p.y, p.z), part);
+    write_text("</vertices>\n<triangles>\n", part);
+    for (const glm::uvec3& t : mesh.triangles)
+      write_text(fmt::format("<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", t.x, t.y, t.z), part);
+    write_text("</triangles>\n</mesh></object></resources>\n<build><item objectid=\"1\"/></build>\n</model>\n", part);
+  };
+  const ZipEntry entries[] = {
+      {"[Content_Types].xml",
+       text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
+            "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
+            "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>"
+            "</Types>\n")},
+      {"_rels/.rels",
+       text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+            "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
+            "<Relationship Id=\"rel0\" Target=\"/3D/3dmodel.model\" "
+            "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>\n")},
+      {"3D/3dmodel.model", model}};
+  write_zip(entries, to);
+}
+
 std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material,
                           const Manufacturing& making) {
   std::string page = "# For the workshop\n\n| what | figure |\n|---|---|\n";
@@ -127,7 +162,7 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
                       layout.is_mirror() ? ", which is the mirror" : "");
   fmt::format_to(
       std::back_inserter(page),
-      "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the {} at the top (+z).\n"
+      "- `object.stl`, `object.3mf`, `object.obj`, `object.ply`: the closed solid in millimetres, the {} at the top (+z).\n"
       "- `facets.json`: a line a facet",
       flat);
   page += layout.draft > 0 ? ", as if walls stood upright.\n" : ".\n";

@@ -11,6 +11,11 @@ inline constexpr const char* mesh_title = "Nephroid: inverse caustics, millimetr
 void write_obj(const scene::Mesh& mesh, ByteSink& to); ///< Wavefront
 void write_stl(const scene::Mesh& mesh, ByteSink& to); ///< binary
 
+/// 3MF (core specification 1.3), in millimetres: vertices are shared, so that it is as closed as the mesh.
+void write_3mf(const scene::Mesh& mesh, ByteSink& to);
+/// What a 3MF, a zip archive whose parts are below 4 GiB, is sure to hold.
+inline constexpr std::uint64_t most_3mf_triangles = 30'000'000;
+
 /// How the object is made, in millimetres; empty: not said.
 struct Manufacturing {
   std::optional<double> tool_radius, layer;

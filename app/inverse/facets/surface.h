@@ -19,6 +19,7 @@ public:
   };
   /// p is a column and row; beside the nodes the pieces at the rim go on.
   At at(const glm::dvec2& p) const;
+  const Grid& bells() const { return parts_; }
 
 private:
   Grid parts_; ///< heights of the spline's bells, one more on each side than nodes
@@ -42,6 +43,9 @@ public:
         found.curvature / glm::dvec3(facet_.x * facet_.x, -facet_.x * facet_.y, facet_.y * facet_.y); // rows go down
     return {found.value, found.gradient / glm::dvec2(facet_.x, -facet_.y), {c.x, c.y, c.y, c.z}};
   }
+
+  /// Heights of the spline's bells, which stand at the corners and one step beside them.
+  const Grid& bells() const { return spline_.bells(); }
 
 private:
   Spline spline_;
