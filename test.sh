@@ -17,7 +17,8 @@ case ${1-} in
   *) sed -n '3,5s/^# //p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
 esac
 
-packages=("${build_packages[@]}" "${program_packages[@]}" "${test_packages[@]}")
+packages=("${build_packages[@]}" "${program_packages[@]}" "${workshop_packages[@]}"
+  "${test_packages[@]}")
 [ "$preset" = headless ] || packages+=("${window_packages[@]}")
 [ "$preset" != clang ] || packages+=(clang)
 

@@ -10,7 +10,7 @@ root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 . "$root/third_party/packages.sh"
 
 preset=${1:-release}
-packages=("${build_packages[@]}" "${program_packages[@]}" "${packaging_packages[@]}")
+packages=("${build_packages[@]}" "${program_packages[@]}" "${workshop_packages[@]}" "${packaging_packages[@]}")
 case $preset in
   release) packages+=("${window_packages[@]}") ;;
   headless) ;;

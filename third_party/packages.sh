@@ -14,6 +14,8 @@ program_packages=(
   liblcms2-dev libeigen3-dev libqrencode-dev glmark2-data fonts-dejavu-core libjs-chart.js)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
+# STEP files (docs/workshop.md), in a package of their own. The build leaves them out where it does not find this.
+workshop_packages=(libocct-data-exchange-dev)
 # What cpack makes a package with: a library's package by dpkg-shlibdeps, and what is a program by file.
 packaging_packages=(dpkg-dev file)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema

@@ -111,8 +111,15 @@ void write_zip(std::span<const ZipEntry> entries, ByteSink& to) {
     header.write(to, entries[i].name);
     at += header.size() + entries[i].name.size();
   }
-  ZipHeader(0x06054b50).two(0).two(0).two(entries.size()).two(entries.size()).four(at - first).four(first).two(0).write(
-      to);
+  ZipHeader(0x06054b50)
+      .two(0)
+      .two(0)
+      .two(entries.size())
+      .two(entries.size())
+      .four(at - first)
+      .four(first)
+      .two(0)
+      .write(to);
 }
 
 } // namespace nephroid

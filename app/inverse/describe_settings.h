@@ -264,6 +264,11 @@ inline void describe(preset::Fields& v, Settings& s) {
       "thickness_mm",
       "From the middle of the relief to the flat front; a sheet that holds the object is thicker by half the relief.",
       s.thickness_mm, {.unit = "mm", .bounds = within(0.01, 1e5)});
+  v.field(
+      "stock_mm",
+      "In place of thickness_mm: the sheet that the object is cut from. The highest points of the relief are on one "
+      "of its faces, the front is the other.",
+      s.stock_mm, {.unit = "mm", .bounds = within(0.01, 1e5)});
   v.field("heights", "Where the middles of the facets are.", s.heights);
   v.field("min_thickness_mm", "No part of the object may be thinner.", s.min_thickness_mm,
           {.unit = "mm", .bounds = within(0.001, 1e5)});

@@ -85,10 +85,10 @@ public:
     if (!engine::adoptable(preset_, preset)) return false;
     if (settings(preset) != settings(preset_) || preset.stop != preset_.stop) {
       const Design design(preset);
+      stop_judging();
       layout_ = design.layout;
       targets_ = design.targets;
       best_ = design.best();
-      stop_judging();
       search_.go_on();
       find_conflicts();
       object_.clear();
@@ -131,9 +131,23 @@ private:
     }
   }
 
-  void begin_judging() { judgement_.emplace(preset_, context_, layout_, targets_, search_.method().solid()); }
+  /// The relief's highest points come onto the sheet's face: the front is moved. Facets then are bent for the light
+  /// that a lamp sends through that much glass, which moves the relief a little.
+  Solid solid_in_sheet() {
+    Solid solid = search_.method().solid();
+    const std::optional<double> stock = settings(preset_).stock_mm;
+    constexpr int most_moves = 4;
+    for (int i = 0; stock && i < most_moves && std::abs(layout_.thickness - solid.lowest - *stock) > 1e-6; ++i) {
+      layout_ = make_layout(preset_, *stock + solid.lowest);
+      solid = search_.method().solid();
+    }
+    return solid;
+  }
+
+  void begin_judging() { judgement_.emplace(preset_, context_, layout_, targets_, solid_in_sheet()); }
 
   void stop_judging() {
+    if (judgement_ && settings(preset_).stock_mm) layout_ = make_layout(preset_);
     judgement_.reset();
     conflicts_.reset();
   }

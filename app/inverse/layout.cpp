@@ -63,14 +63,28 @@ std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& targ
   return to;
 }
 
-/// Free heights leave this part of the thickness, and of the way to the nearest receiver.
+/// Until a lens is known, half its relief is taken for this part of the sheet.
+constexpr double foretold_lens = 0.1;
+
+/// Free heights leave this part of the thickness, and of the way to the nearest receiver; a relief, of the sheet.
 constexpr double spared = 0.1;
 
 double band_of(const Settings& s, const Location& own) {
   double band = std::numeric_limits<double>::infinity();
-  if (s.heights == Settings::Heights::free)
-    band = (1 - spared) * (s.far ? s.thickness_mm : std::min(s.thickness_mm, s.receivers.front().distance_mm));
+  if (s.heights == Settings::Heights::free) {
+    const double inside = s.stock_mm ? *s.stock_mm / 2 : s.thickness_mm;
+    band = (1 - spared) * (s.far ? inside : std::min(inside, s.receivers.front().distance_mm));
+  }
   if (s.max_relief_mm) band = std::min(band, *s.max_relief_mm / 2);
+  if (s.stock_mm) { // which holds the relief above and below its middle
+    const double least = s.min_thickness_mm.value_or(0);
+    if (least >= *s.stock_mm)
+      throw bad_input(own / "min_thickness_mm",
+                      fmt::format("is {} mm, and the sheet is {} mm thick", least, *s.stock_mm),
+                      "expected less than 'stock_mm', of which the relief is taken away",
+                      fmt::format("choose a thicker sheet than {} mm", least));
+    return std::min(band, std::min(*s.stock_mm - least, (1 - spared) * *s.stock_mm) / 2);
+  }
   if (!s.min_thickness_mm) return band;
   if (*s.min_thickness_mm >= s.thickness_mm)
     throw bad_input(own / "min_thickness_mm",
@@ -90,6 +104,7 @@ void check_constraints(const Layout& l, const Settings& s, const Location& own) 
   const bool too_shallow = s.method != Settings::Method::lens && l.band < needed;
   const char* const field = !too_shallow                                        ? "max_slope_deg"
                             : s.max_relief_mm && *s.max_relief_mm / 2 <= l.band ? "max_relief_mm"
+                            : s.stock_mm                                        ? "stock_mm"
                             : s.min_thickness_mm                                ? "min_thickness_mm"
                                                                                 : "heights";
   const double least = glm::degrees(std::atan(glm::length(facet_gradient({slope, 0}, l.n))));
@@ -144,7 +159,7 @@ void check_aim(const Layout& l, const Location& own) {
 }
 
 /// Refuses facets that could cut the object in two or reach the nearest receiver.
-void check_room(const Layout& l, const Location& own) {
+void check_room(const Layout& l, const Settings& s, const Location& own) {
   const double relief = most_relief(l);
   const auto refuse = [&](const Location& where, double value, const char* what) {
     if (value > relief) return;
@@ -154,7 +169,7 @@ void check_room(const Layout& l, const Location& own) {
                     fmt::format("expected more than that, so that {}", what),
                     "choose more facets, a larger value here or another index");
   };
-  refuse(own / "thickness_mm", l.thickness, "the object holds together");
+  if (!s.stock_mm) refuse(own / "thickness_mm", l.thickness, "the object holds together");
   refuse(own / "receivers" / 0 / "distance_mm", l.distances.front(), "the receiver is free of the object");
 }
 
@@ -204,7 +219,7 @@ glm::dvec2 Layout::wave_width() const {
   return std::max(spread.x, spread.y) < least_cells ? glm::dvec2(0) : box * diffraction();
 }
 
-Layout make_layout(const preset::Preset& preset) {
+Layout make_layout(const preset::Preset& preset, std::optional<double> thickness) {
   const Location own = Location(preset.source) / "inverse";
   const Settings s = with_found_meshes(preset, own);
   const glm::dvec2 size(s.size_mm[0], s.size_mm[1]);
@@ -215,7 +230,7 @@ Layout make_layout(const preset::Preset& preset) {
                steepest = lens ? most : std::min(most, 2 * band / glm::length(size / glm::dvec2(facets)));
   Layout l{.size = size,
            .round = s.outline == Settings::Outline::round,
-           .thickness = s.thickness_mm,
+           .thickness = thickness.value_or(s.stock_mm.value_or(s.thickness_mm)),
            .facets = facets,
            .n = refraction.n,
            .spectrum = refraction.spectrum,
@@ -241,9 +256,10 @@ Layout make_layout(const preset::Preset& preset) {
            .smoothing = s.smoothing_normals / s.smoothing_pictures};
   check_tool(l, s, own);
   check_constraints(l, s, own);
+  if (s.stock_mm && !thickness) l.thickness -= std::min(band, lens ? foretold_lens * *s.stock_mm : most_relief(l));
   l.light = make_illumination(l, s.light, own / "light", s);
   add_own_lights(l, s, own);
-  check_room(l, own);
+  check_room(l, s, own);
   check_aim(l, own);
   return l;
 }

@@ -160,7 +160,10 @@ using Target = std::vector<double>;
 
 /// Throws bad_input where the index cannot be read or is 1, where a constraint or the light leaves no picture, where
 /// facets would reach the front or the nearest receiver, and where the solid cannot aim at the farthest one's cells.
-Layout make_layout(const preset::Preset& preset);
+///
+/// With stock_mm the thickness is one of which the facets' relief is sure to fit into the sheet, until the relief is
+/// known and gives it: `thickness`.
+Layout make_layout(const preset::Preset& preset, std::optional<double> thickness = {});
 
 /// A lattice of facets that stand for all: every facet, up to `a_side` of them a side.
 std::vector<std::size_t> some_facets(const Layout& layout, int a_side);

@@ -240,7 +240,7 @@ preset::Camera view_camera(const preset::Preset& preset) {
   if (camera != untouched) return camera;
   const Settings& s = settings(preset);
   const auto receiver = s.receiver_mm.value_or(s.size_mm);
-  dvec3 high(s.size_mm[0] / 2, s.size_mm[1] / 2, s.thickness_mm),
+  dvec3 high(s.size_mm[0] / 2, s.size_mm[1] / 2, s.stock_mm.value_or(s.thickness_mm)),
       low(-high.x, -high.y, -s.receivers.back().distance_mm);
   for (const Receiver& r : s.receivers)
     for (int axis = 0; axis < 2; ++axis) {

@@ -144,9 +144,9 @@ public:
     return file_;
   }
   std::string sentence() const {
-    return fmt::format("- `object.step`: {} in {}, AP214; OpenCascade reads it back as one closed solid of {:.6g} cm3.\n",
-                       counted(file().faces, "face"), plan::readable_bytes(file().bytes.size()),
-                       file().volume / 1000);
+    return fmt::format(
+        "- `object.step`: {} in {}, AP214; OpenCascade reads it back as one closed solid of {:.6g} cm3.\n",
+        counted(file().faces, "face"), plan::readable_bytes(file().bytes.size()), file().volume / 1000);
   }
 
 private:
@@ -283,15 +283,13 @@ void add_files(job::Snapshot& snapshot, const RunState& run) {
   std::shared_ptr<const StepOnce> step;
   if (s.step) {
     step = std::make_shared<const StepOnce>(layout, judgement.solid(), name);
-    snapshot.files.push_back({"object.step", [step](ByteSink& to) {
-                                to.write(std::as_bytes(std::span(step->file().bytes)));
-                              }});
+    snapshot.files.push_back(
+        {"object.step", [step](ByteSink& to) { to.write(std::as_bytes(std::span(step->file().bytes))); }});
   }
-  add_text("workshop.md",
-           [material = material_of(s, run.layout.n), table, step,
-            making = Manufacturing{s.tool_radius_mm, s.layer_mm}](const Layout& of, const Solid& solid) {
-             return workshop_page(of, solid, material, making) + (step ? step->sentence() : "") + table;
-           });
+  add_text("workshop.md", [material = material_of(s, run.layout.n), table, step,
+                           making = Manufacturing{s.tool_radius_mm, s.layer_mm}](const Layout& of, const Solid& solid) {
+    return workshop_page(of, solid, material, making) + (step ? step->sentence() : "") + table;
+  });
   if (!csv.empty()) add_text("tolerance.csv", [csv](const auto&...) { return csv; });
   add_text("print_object.svg", [name](const Layout& of, const Solid&) { return object_page(of, name); });
   if (run.layout.far) add_intensity_files(snapshot, cast_far(run), name);

@@ -158,6 +158,9 @@ void check(const preset::Preset& preset, const Where& where) {
   if (free_heights && s.method == Method::thesis)
     refuse("heights", "is free, and the method 'thesis' aims from facets in one plane", "expected 'flat'",
            "or choose the method 'assign'");
+  if (s.stock_mm && s.thickness_mm != Settings{}.thickness_mm)
+    refuse("stock_mm", fmt::format("is {} mm, and thickness_mm is {} mm", *s.stock_mm, s.thickness_mm),
+           "expected one of both", "remove thickness_mm: the sheet and the relief say it");
   if (lens && s.receivers.size() > 1)
     refuse("method", fmt::format("is \"lens\", and there are {} receivers", s.receivers.size()),
            "expected one, because a smooth surface casts one picture", "choose \"assign\", or keep one receiver");

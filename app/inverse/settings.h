@@ -115,6 +115,7 @@ struct Settings {
   std::array<double, 2> size_mm{100, 100};  ///< the object's width and height
   Outline outline = Outline::rectangle;     ///< the object's outline within size_mm
   double thickness_mm = 10;                 ///< from the middle of the relief to the flat front
+  std::optional<double> stock_mm{};         ///< the sheet that holds the object, relief and all; not with thickness_mm
   Heights heights = Heights::flat;          ///< where the facets' middles are
   std::optional<double> min_thickness_mm{}; ///< the object is nowhere thinner
   std::optional<double> max_relief_mm{};    ///< from the lowest corner of a facet to the highest

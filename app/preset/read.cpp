@@ -5,6 +5,7 @@
 #include "preset/animation.h"
 #include "preset/describe.h"
 #include "preset/document.h"
+#include "preset/length.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
@@ -182,10 +183,15 @@ private:
   }
 
   void read_number(const Json& json, const std::string& pointer, const Field& f, const Value& value) const {
-    const bool is_number =
-        json.is_number() && std::isfinite(json.get<double>()); // a value of as_json may be none that a text can have
-    if (!is_number || !f.bounds.contain(json.get<double>())) refuse(json, pointer, expected_number(f));
-    value.as<double>() = json.get<double>();
+    const bool is_length = f.unit == length_unit && json.is_string();
+    const std::optional<double> number = is_length          ? millimetres_of(json.get_ref<const std::string&>())
+                                         : json.is_number() ? std::optional(json.get<double>())
+                                                            : std::nullopt;
+    // A value of as_json may be none that a text can have.
+    if (!number || !std::isfinite(*number) || !f.bounds.contain(*number))
+      refuse(json, pointer, expected_number(f),
+             is_length ? fmt::format("write a number, or a length with its unit: {}", length_units) : std::string());
+    value.as<double>() = *number;
   }
 
   void read_integer(const Json& json, const std::string& pointer, const Field& f, const Value& value) const {

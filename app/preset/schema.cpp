@@ -4,6 +4,7 @@
 #include "preset/read.h"
 
 #include "preset/describe.h"
+#include "preset/length.h"
 #include "preset/walks.h"
 
 #include <nlohmann/json.hpp>
@@ -115,6 +116,8 @@ private:
     const Kind kind = type.kind;
     if (kind == Kind::boolean) return {{"type", "boolean"}};
     if (!f.none_word.empty()) return {{"anyOf", {number_schema("number", f.bounds), {{"const", f.none_word}}}}};
+    if (kind == Kind::number && f.unit == length_unit)
+      return {{"anyOf", {number_schema("number", f.bounds), {{"type", "string"}, {"pattern", length_pattern}}}}};
     if (kind == Kind::integer || kind == Kind::number)
       return number_schema(kind == Kind::integer ? "integer" : "number", f.bounds);
     if (kind == Kind::text) return text_schema(f.text);

@@ -64,7 +64,7 @@ TEST_F(InverseRun, CastsTheShapes) {
               1e-6);
   EXPECT_THAT(bytes("out/cost.csv"), StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));
   for (const char* file : {"receiver_3.exr", "target_1.png", "difference_2.png", "object.obj", "object.stl",
-                           "object.ply", "facets.json", "heights.exr", "heights.png", "workshop.md"})
+                           "object.ply", "object.3mf", "facets.json", "heights.exr", "heights.png", "workshop.md"})
     EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
   const image::Image receiver = image::read_image(folder / "out/receiver_1.exr");
   EXPECT_EQ(receiver.width, 32);

@@ -62,7 +62,7 @@ const std::vector<LibraryRule> library_rules{{"CL/", "compute"},      {"OpenImag
                                              {"implot", "ui"},        {"imcmd_", "ui"},
                                              {"FLIP.h", "measure"},   {"Eigen/", "optics, measure, inverse"},
                                              {"qrencode", "inverse"}, {"ImGuizmo", "ui"},
-                                             {"date/", "base"}};
+                                             {"date/", "base"},       {"STEPControl", "inverse"}};
 
 /// What is wrong with one include of a file of `folder`; empty where nothing is.
 std::string break_of(const std::string& folder, const std::string& included, const FolderTable& table) {

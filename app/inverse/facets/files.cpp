@@ -91,9 +91,7 @@ void write_stl(const scene::Mesh& mesh, ByteSink& to) {
 }
 
 void write_3mf(const scene::Mesh& mesh, ByteSink& to) {
-  const auto text = [](const char* words) {
-    return [words](ByteSink& part) { write_text(words, part); };
-  };
+  const auto text = [](const char* words) { return [words](ByteSink& part) { write_text(words, part); }; };
   const auto model = [&](ByteSink& part) {
     write_text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                "<model unit=\"millimeter\" xml:lang=\"en-US\" "
@@ -160,11 +158,11 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
                                                  : "The facets, with walls between them that stand straight up, are")
                                           : "The relief is",
                       layout.is_mirror() ? ", which is the mirror" : "");
-  fmt::format_to(
-      std::back_inserter(page),
-      "- `object.stl`, `object.3mf`, `object.obj`, `object.ply`: the closed solid in millimetres, the {} at the top (+z).\n"
-      "- `facets.json`: a line a facet",
-      flat);
+  fmt::format_to(std::back_inserter(page),
+                 "- `object.stl`, `object.3mf`, `object.obj`, `object.ply`: the closed solid in millimetres, the {} at "
+                 "the top (+z).\n"
+                 "- `facets.json`: a line a facet",
+                 flat);
   page += layout.draft > 0 ? ", as if walls stood upright.\n" : ".\n";
   fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n",
                  scale_of(layout), png_scale(layout, solid));

@@ -49,7 +49,8 @@ LensForecast forecast(const Layout& layout, const Target& target, std::optional<
 std::vector<std::string> forecast_notes(const Settings& settings, const LensForecast& lens) {
   constexpr double deep = 0.5;   // of the thickness
   constexpr double unsure = 0.9; // the forecast is right within a tenth
-  const double thinnest = settings.thickness_mm - lens.relief_mm / 2;
+  const double thickness = settings.stock_mm ? *settings.stock_mm - lens.relief_mm / 2 : settings.thickness_mm,
+               thinnest = thickness - lens.relief_mm / 2;
   const std::string depth = fmt::format("the lens becomes some {:.2g} mm deep, and ", lens.relief_mm);
   const char* const remedy =
       "; the run is refused once the lens is found to miss it; choose a receiver further away, a brighter 'background'";
@@ -57,14 +58,15 @@ std::vector<std::string> forecast_notes(const Settings& settings, const LensFore
   if (settings.max_relief_mm && lens.relief_mm > unsure * *settings.max_relief_mm)
     notes.push_back(
         fmt::format("{}'max_relief_mm' is {}{} or a larger max_relief_mm", depth, *settings.max_relief_mm, remedy));
-  if (settings.min_thickness_mm && lens.relief_mm / 2 > unsure * (settings.thickness_mm - *settings.min_thickness_mm))
+  if (settings.min_thickness_mm && lens.relief_mm / 2 > unsure * (thickness - *settings.min_thickness_mm))
     notes.push_back(fmt::format("{}{:.2g} mm are left at its thinnest, where 'min_thickness_mm' is {}{} or a larger "
                                 "thickness_mm",
                                 depth, std::max(0.0, thinnest), *settings.min_thickness_mm, remedy));
-  else if (lens.relief_mm > deep * settings.thickness_mm)
-    notes.push_back(fmt::format("{}the object is {} mm thick: {:.2g} mm are left at its thinnest; choose a receiver "
-                                "further away, a brighter 'background' or a larger thickness_mm",
-                                depth, settings.thickness_mm, std::max(0.0, thinnest)));
+  else if (lens.relief_mm > deep * thickness)
+    notes.push_back(
+        fmt::format("{}the object is {:.4g} mm thick: {:.2g} mm are left at its thinnest; choose a receiver "
+                    "further away, a brighter 'background' or a larger thickness_mm",
+                    depth, thickness, std::max(0.0, thinnest)));
   if (settings.max_slope_deg && lens.steepest_deg > unsure * *settings.max_slope_deg)
     notes.push_back(fmt::format("the lens becomes as steep as some {:.2g} degrees, and 'max_slope_deg' is {}{} or a "
                                 "larger max_slope_deg",

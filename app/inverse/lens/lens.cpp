@@ -317,13 +317,13 @@ Solid Lens::solid() const {
                     layout_.far ? "choose a larger value or a narrower target"
                                 : "choose a larger value or a receiver further away");
   };
+  if (reach > layout_.band)
+    throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
+                    fmt::format("'max_relief_mm', 'min_thickness_mm' and 'stock_mm' leave {:.4g} mm", 2 * layout_.band),
+                    "loosen them, choose a thicker object or a receiver further away");
   if (reach > most_of_room * layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
   if (reach > most_of_room * layout_.distances.front())
     refuse(settings_ / "receivers" / 0 / "distance_mm", layout_.distances.front());
-  if (reach > layout_.band)
-    throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
-                    fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
-                    "loosen them, choose a larger thickness_mm or a receiver further away");
   const double mesh_error = this->mesh_error();
   const std::vector<int> parts = mesh_parts(layout_, surface_, mesh_error);
   if (const std::uint64_t triangles = count_triangles(layout_, parts); stl_bytes(triangles) > most_stl_bytes)

@@ -21,13 +21,15 @@ public:
       for (int i = 0; i < 3; ++i) triangle_at_[way(mesh_.triangles[t][i], mesh_.triangles[t][(i + 1) % 3])] = t;
   }
 
+  /// Each face has an edge in common with one before it: OpenCascade's readers search long for it elsewhere.
   StepSolid faces() {
     StepSolid made;
     made.vertices.assign(mesh_.positions.begin(), mesh_.positions.end());
     const std::vector<Key> keys = all_keys();
     std::vector<bool> done(keys.size());
-    std::vector<std::size_t> group;
-    for (std::size_t first = 0; first < keys.size(); ++first) {
+    std::vector<std::size_t> group, seeds{0};
+    for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
+      const std::size_t first = seeds[seed];
       if (done[first]) continue;
       // All triangles of one plane that hang together by edges, and the edges about them.
       std::unordered_map<std::uint32_t, std::uint32_t> next;
@@ -40,6 +42,7 @@ public:
           const std::size_t other = triangle_at_.at(way(b, a));
           if (keys[other] != keys[first]) {
             if (!next.try_emplace(a, b).second) refuse();
+            seeds.push_back(other);
           } else if (!done[other]) {
             done[other] = true;
             group.push_back(other);
@@ -87,8 +90,8 @@ private:
         if (key.axis == 2)
           key.number = t;
         else if (key.part == Part::wall)
-          key.number = facet_at(layout_, middle(t) + layout_.facet() * glm::dvec2(key.axis % 3 == 0, key.axis % 3 == 1) *
-                                                         0.25);
+          key.number =
+              facet_at(layout_, middle(t) + layout_.facet() * glm::dvec2(key.axis % 3 == 0, key.axis % 3 == 1) * 0.25);
       }
       keys.push_back(key);
     }

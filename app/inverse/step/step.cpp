@@ -91,8 +91,8 @@ void require_step(const Location& where) {
   try {
     step_module();
   } catch (const Error& error) {
-    throw bad_input(where, fmt::format("asks for a STEP file, and the module that writes it is not there: {}",
-                                       error.what()),
+    throw bad_input(where,
+                    fmt::format("asks for a STEP file, and the module that writes it is not there: {}", error.what()),
                     "expected none", step_remedy);
   }
 }

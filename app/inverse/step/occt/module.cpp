@@ -55,8 +55,7 @@ TopoDS_Shape planar_solid(const StepSolid& of) {
     for (const std::uint32_t id : face.ring)
       off[id] = std::max(off[id], 1.01 * std::abs(glm::dot(of.vertices[id] - face.at, face.normal)));
   std::vector<TopoDS_Vertex> vertices(of.vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-    builder.MakeVertex(vertices[i], point(of.vertices[i]), off[i]);
+  for (std::size_t i = 0; i < vertices.size(); ++i) builder.MakeVertex(vertices[i], point(of.vertices[i]), off[i]);
 
   std::unordered_map<std::uint64_t, TopoDS_Edge> edges;
   const auto edge_from = [&](std::uint32_t a, std::uint32_t b) {
@@ -117,8 +116,8 @@ Handle(Geom_BSplineSurface) surface_of(const StepSpline& of) {
     all.Init(1);
     return all;
   };
-  Handle(Geom_BSplineSurface) surface = new Geom_BSplineSurface(
-      poles, knots(of.columns), knots(of.rows), once(of.columns), once(of.rows), degree, degree);
+  Handle(Geom_BSplineSurface) surface = new Geom_BSplineSurface(poles, knots(of.columns), knots(of.rows),
+                                                                once(of.columns), once(of.rows), degree, degree);
   surface->Segment(0, of.columns, 0, of.rows); // its ends are clamped, as many readers want them
   return surface;
 }
@@ -226,7 +225,7 @@ StepRead read(const std::string& file) {
     for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) ++result.faces;
     if (solids != 1) throw StepRefused{"it is read back as " + std::to_string(solids) + " solids"};
     GProp_GProps of;
-    BRepGProp::VolumeProperties(shape, of, Standard_True);
+    BRepGProp::VolumeProperties(shape, of, 1e-6, Standard_True);
     result.volume = of.Mass();
     return result;
   });
