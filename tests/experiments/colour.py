@@ -270,6 +270,13 @@ def closed_forms(limit):
     along = spots.distance * (numpy.tan(bends(math.radians(limit))) - math.tan(math.radians(limit)))
     edge = numpy.array([COLOURS[:, numpy.rint(along) + CELLS // 2 - 1 >= k].sum(1) for k in range(CELLS)]).T
     print(f"a half-plane's coloured edge differs from sums over wavelengths by {abs(seen - edge).max():.1e}")
+    turns = numpy.linspace(0, 1, 201)  # fans a period
+    place = (numpy.tan(bends(math.radians(limit))) - math.tan(math.radians(limit))) / fan(math.radians(limit))
+    x, y, z = COLOURS @ numpy.exp(-2j * math.pi * numpy.outer(place, turns))
+    for fans in (16, 8, 4, 2, 1):
+        near = turns <= 1 / fans
+        print(f"a grating of {fans:2} fans: |X - Y| at most {abs(x - y)[near].max():.3f} of the mean light, |Z - Y| "
+              f"{abs(z - y)[near].max():.3f}")
     colour = numpy.array([0.6, 0.4, 0.1])
     target = numpy.broadcast_to(colour[:, None, None], (3, CELLS, CELLS))
     known = math.sqrt((colour ** 2).mean() - colour.mean() ** 2)
