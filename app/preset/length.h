@@ -8,7 +8,7 @@ namespace nephroid::preset {
 
 /// The unit of the fields that take such a length, the units that they take, and how it is written: whole, number,
 /// denominator and unit are its parts.
-inline constexpr std::string_view length_unit = "mm", length_units = "um, mm, cm, m, in or ft";
+inline constexpr std::string_view millimetre_unit = "mm", length_units = "um, mm, cm, m, in or ft";
 inline constexpr const char* length_pattern =
     R"(^\s*(?:(\d+)\s+(?=\d+/))?(-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?:/(\d+))?\s*(um|mm|cm|m|in|ft)\s*$)";
 

@@ -183,7 +183,7 @@ private:
   }
 
   void read_number(const Json& json, const std::string& pointer, const Field& f, const Value& value) const {
-    const bool is_length = f.unit == length_unit && json.is_string();
+    const bool is_length = f.unit == millimetre_unit && json.is_string();
     const std::optional<double> number = is_length          ? millimetres_of(json.get_ref<const std::string&>())
                                          : json.is_number() ? std::optional(json.get<double>())
                                                             : std::nullopt;

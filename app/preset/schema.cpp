@@ -116,7 +116,7 @@ private:
     const Kind kind = type.kind;
     if (kind == Kind::boolean) return {{"type", "boolean"}};
     if (!f.none_word.empty()) return {{"anyOf", {number_schema("number", f.bounds), {{"const", f.none_word}}}}};
-    if (kind == Kind::number && f.unit == length_unit)
+    if (kind == Kind::number && f.unit == millimetre_unit)
       return {{"anyOf", {number_schema("number", f.bounds), {{"type", "string"}, {"pattern", length_pattern}}}}};
     if (kind == Kind::integer || kind == Kind::number)
       return number_schema(kind == Kind::integer ? "integer" : "number", f.bounds);

@@ -184,8 +184,9 @@ protected:
 // From the highest point of the relief to the front the object is as thick as the sheet, whatever the light is.
 TEST_F(Stock, IsAsThickAsTheObject) {
   for (const char* more :
-       {"", R"(, "heights": "free")", R"(, "draft_deg": 3)", R"(, "kind": "mirror", "light": {"tilt_deg": 20})",
-        R"(, "light": {"tilt_deg": 10})", R"(, "light": {"type": "point", "distance_mm": 300})",
+       {"", R"(, "heights": "free")", R"(, "draft_deg": 3)",
+        R"(, "kind": "mirror", "light": {"type": "parallel", "tilt_deg": 20})",
+        R"(, "light": {"type": "parallel", "tilt_deg": 10})", R"(, "light": {"type": "point", "distance_mm": 300})",
         R"(, "method": "lens")", R"(, "method": "lens", "outline": "round")"}) {
     const scene::Mesh mesh = mesh_of(design(R"(, "stock_mm": 12.7)" + std::string(more)));
     float low = 1e9f, high = -1e9f;

@@ -33,7 +33,7 @@ public:
   const std::vector<double>& light(std::size_t receiver) const override { return all_light()[receiver]; }
   double residual() const; ///< the sum that sweeps lower
   std::vector<Cost> costs() const override;
-  Solid solid() const override { return make_solid(layout_, slopes()); }
+  Solid solid() const override { return make_solid(given_, slopes()); }
   /// Begins the sweep in hand again.
   void relight() override;
 
