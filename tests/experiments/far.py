@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes optics for ten wanted intensities, and traces their STL files alone. Needs numpy and embreex.
 
-    tests/experiments/far.py PROGRAM OUT [NAME...] [--method lens] [--lambert] [--rays 4000000] [--set KEY=VALUE]
+    tests/experiments/far.py PROGRAM OUT [NAME...] [--method lens] [--away 200] [--lambert]
+        [--rays 4000000] [--set KEY=VALUE]
 
 No line of the program's own code traces here: embree finds hits, and Snell's law and Fresnel's equations in vectors
 bend and weaken the light. The lamp is a disc of a fifth of the lens, which shines evenly to all sides as the engine has
@@ -18,7 +19,8 @@ import numpy as np
 from embreex import rtcore_scene
 from embreex.mesh_construction import TriangleMesh
 
-INDEX, SIZE, THICK, LAMP, AWAY = 1.49, 100.0, 13.0, 20.0, 200.0
+INDEX, SIZE, LAMP = 1.49, 100.0, 20.0
+THICK, THICKER = 13, {"cutoff": 24, "street.ldt": 20, "wall.ies": 28}  # what turns all light aside is a wedge, too
 CELLS = 64
 
 
@@ -152,15 +154,16 @@ class Solid:
         return ways, power
 
 
-def trace(solid, half, rays, lambert, seed):
+def trace(solid, half, away, rays, lambert, seed):
     """Light of each cell, and all that is sent, as parts of what falls on the front."""
     random = np.random.default_rng(seed)
+    front = solid.corners[:, :, 2].max()
     light, on_front, sent_in_all = np.zeros((CELLS, CELLS)), 0.0, 0.0
     for _ in range(max(1, rays // 500_000)):
         count = 500_000
         turn, r = random.random(count) * 2 * np.pi, LAMP / 2 * np.sqrt(random.random(count))
-        lamp = np.stack([r * np.cos(turn), r * np.sin(turn), np.full(count, THICK + AWAY)], 1)
-        at = np.append((random.random((count, 2)) - 0.5) * SIZE, np.full((count, 1), THICK), 1)
+        lamp = np.stack([r * np.cos(turn), r * np.sin(turn), np.full(count, front + away)], 1)
+        at = np.append((random.random((count, 2)) - 0.5) * SIZE, np.full((count, 1), front), 1)
         ways = at - lamp
         length = np.linalg.norm(ways, axis=1, keepdims=True)
         ways /= length
@@ -188,7 +191,7 @@ def rms_of(intensity, wanted, angle, target):
     return np.sqrt((over**2 * angle[target]).sum() / (wanted**2 * angle)[target].sum()), scale
 
 
-def judge(out, name, more, rays, lambert):
+def judge(out, name, more, away, rays, lambert):
     table = np.loadtxt(out / "intensity.csv", delimiter=",", skiprows=1)
     tangents = np.tan(np.radians(table[:, :2]))
     half = tangents.max(0) * CELLS / (CELLS - 1)
@@ -197,7 +200,7 @@ def judge(out, name, more, rays, lambert):
     wanted = wanted_at(name, more, tx[None], -ty[:, None]).reshape(CELLS, fine, CELLS, fine).mean((1, 3))
     angle, target = steradians(half), wanted > 0.01 * wanted.max()
     solid = Solid(out / "object.stl")
-    traced = [trace(solid, half, rays // 2, lambert, seed) for seed in (1, 2)]
+    traced = [trace(solid, half, away, rays // 2, lambert, seed) for seed in (1, 2)]
     halves, sent = [light / angle for light, _ in traced], np.mean([all_sent for _, all_sent in traced])
     rms, _ = rms_of((halves[0] + halves[1]) / 2, wanted, angle, target)
     mean = (halves[0] + halves[1]) / 2
@@ -218,6 +221,7 @@ def main():
     parser.add_argument("out", type=Path)
     parser.add_argument("names", nargs="*")
     parser.add_argument("--method", default="lens")
+    parser.add_argument("--away", type=float, default=200, help="from the front to the lamp, mm")
     parser.add_argument("--lambert", action="store_true")
     parser.add_argument("--rays", type=int, default=4_000_000)
     parser.add_argument("--set", action="append", default=[])
@@ -231,14 +235,15 @@ def main():
             write_file(args.out / name, FILES[name])
         preset = {"engine": "inverse", "unit": "mm", "scene": {"camera": {"resolution": [256, 512]}}, "inverse": {
             "method": args.method, "facets": [128, 128], "cells": [CELLS, CELLS], "index": INDEX,
-            "size_mm": [SIZE, SIZE], "thickness_mm": THICK, "far": far, "mesh_error": 0.1,
-            "light": {"type": "area", "shape": "disc", "size_mm": [LAMP, LAMP], "distance_mm": AWAY}}}
+            "size_mm": [SIZE, SIZE],
+            "thickness_mm": THICKER.get(name, THICK), "far": far, "mesh_error": 0.1,
+            "light": {"type": "area", "shape": "disc", "size_mm": [LAMP, LAMP], "distance_mm": args.away}}}
         file = args.out / f"{name}.json"
         file.write_text(json.dumps(preset, indent=1), encoding="ascii")
         folder = args.out / f"run-{name}"
         subprocess.run([args.program, "run", file, "-o", folder]
                        + [part for pair in args.set for part in ("--set", pair)], check=True, capture_output=True)
-        judge(folder, name, far, args.rays, args.lambert)
+        judge(folder, name, far, args.away, args.rays, args.lambert)
 
 
 if __name__ == "__main__":
