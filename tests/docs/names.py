@@ -184,7 +184,7 @@ class Project:
         if field := re.match(rf"/?(?!\w+\.(?:glb|mp4|json)$)((?:{'|'.join(self.sections)})(?:[./]\w+)+)($|=)", text):
             parts = re.split(r"[./]", re.sub(r"(materials)[./]\w+", r"\1", field[1]))
             return [part for part in parts if part not in self.fields and not part.isdigit()]
-        words = re.findall(r"[A-Za-z_]\w*", DEFINE.sub(" ", text))
+        words = re.findall(r"\b[A-Za-z_]\w*", DEFINE.sub(" ", text))
         return [word for word in words if word not in given and word not in EXCEPTIONS and not self.has_word(word)]
 
 

@@ -88,7 +88,8 @@ def meshes(program, out):
         for off in (1, 3):
             row(f"light tilted by {off} degrees more", run, "--set", f"inverse.light.tilt_deg={tilt + off}")
         heights = read_map(run / "heights.exr")
-        pixel = json.loads((run / "preset.json").read_text())["inverse"].get("size_mm", [100, 100])[0] / heights.shape[1]
+        size = json.loads((run / "preset.json").read_text())["inverse"].get("size_mm", [100, 100])
+        pixel = size[0] / heights.shape[1]
         for rms in (0, 2, 10):
             scan = out / f"{name}-{rms}.tif"
             Image.fromarray((heights + noise(heights.shape, 1e-3 * rms, 1 / pixel, random)).astype("f4")).save(scan)

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <dlfcn.h>
 #include <filesystem>
