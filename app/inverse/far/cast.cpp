@@ -89,9 +89,11 @@ std::string svg_of(const CastIntensity& cast) {
     text += fmt::format("<path d=\"M{}L{}\" stroke=\"silver\" stroke-width=\"0.2\"/>\n", place(0, 0), place(gamma, 1));
   const auto curve = [&](const std::vector<double>& cells, const glm::dvec2& along, const char* style) {
     std::string path;
-    for (double gamma = -89.5; gamma <= 89.5; gamma += 0.25)
+    for (int quarter = -358; quarter <= 358; ++quarter) {
+      const double gamma = quarter / 4.0;
       fmt::format_to(std::back_inserter(path), "{}{}", path.empty() ? "M" : "L",
                      place(gamma, at_tangent(cast.layout, cells, std::tan(glm::radians(gamma)) * along) / most));
+    }
     text += fmt::format("<path d=\"{}\" stroke-width=\"0.4\" {}/>\n", path, style);
   };
   const std::pair<glm::dvec2, std::string> planes[] = {{{1, 0}, "crimson"}, {{0, 1}, "royalblue"}};

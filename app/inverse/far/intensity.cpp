@@ -36,11 +36,13 @@ double luminaire_at(const scene::Photometry& luminaire, const glm::dvec2& tangen
 
 /// Half the angles that hold all directions with more than a hundredth of the greatest intensity.
 glm::dvec2 half_of_luminaire(const scene::Photometry& luminaire, const Location& where) {
-  constexpr double counts = 0.01, step = 0.25;
+  constexpr double counts = 0.01;
+  constexpr int steps_a_degree = 4;
   const double most = *std::ranges::max_element(luminaire.intensity);
   glm::dvec2 half(0);
-  for (double gamma = 0; gamma <= 180; gamma += step)
+  for (int i = 0; i <= 180 * steps_a_degree; ++i)
     for (int c = 0; c < 360; ++c) {
+      const double gamma = static_cast<double>(i) / steps_a_degree;
       if (scene::intensity(luminaire, gamma, c) <= counts * most) continue;
       if (gamma > widest_deg)
         throw bad_input(where / "file", fmt::format("shines {:.4g} degrees from its axis", gamma),
@@ -49,7 +51,7 @@ glm::dvec2 half_of_luminaire(const scene::Photometry& luminaire, const Location&
       const double tangent = std::tan(glm::radians(gamma)), turn = glm::radians(c * 1.0);
       half = glm::max(half, glm::degrees(glm::atan(glm::abs(tangent * glm::dvec2(std::cos(turn), std::sin(turn))))));
     }
-  return glm::max(half, glm::dvec2(step));
+  return glm::max(half, glm::dvec2(1.0 / steps_a_degree));
 }
 
 /// How far p is within a shape, in degrees; p is in degrees to the right and up.

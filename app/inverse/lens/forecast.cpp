@@ -54,19 +54,20 @@ std::vector<std::string> forecast_notes(const Settings& settings, const LensFore
   const std::string depth = fmt::format("the lens becomes some {:.2g} mm deep, and ", lens.relief_mm);
   const char* const remedy =
       "; the run is refused once the lens is found to miss it; choose a receiver further away, a brighter 'background'";
+  const char* const thicker = settings.stock_mm ? "stock_mm" : "thickness_mm";
   std::vector<std::string> notes;
   if (settings.max_relief_mm && lens.relief_mm > unsure * *settings.max_relief_mm)
     notes.push_back(
         fmt::format("{}'max_relief_mm' is {}{} or a larger max_relief_mm", depth, *settings.max_relief_mm, remedy));
   if (settings.min_thickness_mm && lens.relief_mm / 2 > unsure * (thickness - *settings.min_thickness_mm))
-    notes.push_back(fmt::format("{}{:.2g} mm are left at its thinnest, where 'min_thickness_mm' is {}{} or a larger "
-                                "thickness_mm",
-                                depth, std::max(0.0, thinnest), *settings.min_thickness_mm, remedy));
+    notes.push_back(fmt::format("{}{:.2g} mm are left at its thinnest, where 'min_thickness_mm' is {}{} or a larger {}",
+                                depth, std::max(0.0, thinnest), *settings.min_thickness_mm, remedy, thicker));
   else if (lens.relief_mm > deep * thickness)
     notes.push_back(
-        fmt::format("{}the object is {:.4g} mm thick: {:.2g} mm are left at its thinnest; choose a receiver "
-                    "further away, a brighter 'background' or a larger thickness_mm",
-                    depth, thickness, std::max(0.0, thinnest)));
+        fmt::format("{}the {} {:.4g} mm thick: {:.2g} mm are left at its thinnest; choose a receiver further away, a "
+                    "brighter 'background' or a larger {}",
+                    depth, settings.stock_mm ? "sheet is" : "object is", settings.stock_mm.value_or(thickness),
+                    std::max(0.0, thinnest), thicker));
   if (settings.max_slope_deg && lens.steepest_deg > unsure * *settings.max_slope_deg)
     notes.push_back(fmt::format("the lens becomes as steep as some {:.2g} degrees, and 'max_slope_deg' is {}{} or a "
                                 "larger max_slope_deg",

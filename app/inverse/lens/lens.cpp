@@ -204,16 +204,16 @@ std::vector<glm::dvec2> Lens::corners_land() const {
 
 /// The surface's light far away where nothing blurs it: there it is as wide as the surface bends it, not as a facet.
 std::vector<double> Lens::sharp_light() const {
-  constexpr int finer = 4, rim = 1; // a rim of cells gets what falls beside
+  constexpr Eigen::Index finer = 4, rim = 1; // a rim of cells gets what falls beside
   const glm::dvec2 part = fine_cell() / (layout_.cell() * layout_.shrink() / static_cast<double>(finer)),
                    corner = drawn(layout_.offset(0) + glm::dvec2(-1, 1) * layout_.receiver / 2.0) / fine_cell();
   std::vector<glm::dvec2> corners = corners_land();
   for (glm::dvec2& p : corners) p = (p - corner) * part + glm::dvec2(finer * rim);
-  const glm::ivec2 cells = layout_.cells + 2 * rim;
+  const glm::i64vec2 cells = glm::i64vec2(layout_.cells) + 2 * rim;
   const Grid all = spread(sent_by_, corners, finer * cells.y, finer * cells.x);
   std::vector<double> light;
-  for (int y = 0; y < layout_.cells.y; ++y)
-    for (int x = 0; x < layout_.cells.x; ++x)
+  for (Eigen::Index y = 0; y < layout_.cells.y; ++y)
+    for (Eigen::Index x = 0; x < layout_.cells.x; ++x)
       light.push_back(all.block((y + rim) * finer, (x + rim) * finer, finer, finer).sum());
   return light;
 }
