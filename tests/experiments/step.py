@@ -42,7 +42,8 @@ def by_gmsh(file):
     script = file.with_suffix(".geo")
     script.write_text(f'SetFactory("OpenCASCADE");\nv() = ShapeFromFile("{file.resolve()}");\n'
                       'm = Mass Volume{v(0)};\ns() = Surface{:};\nPrintf("read %g %g %.12g", #v(), #s(), m);\n')
-    said = subprocess.run(["gmsh", "-0", script], capture_output=True, text=True, check=True).stdout
+    # It fails where it cannot export a surface that it has read: round sides.
+    said = subprocess.run(["gmsh", "-0", script], capture_output=True, text=True).stdout
     solids, faces, volume = re.search(r"read (\S+) (\S+) (\S+)", said).groups()
     return int(float(solids)), int(float(faces)), float(volume)
 

@@ -199,6 +199,7 @@ protected:
       if (pointer.empty() && !panel().draft().value().contains(name)) continue; // of the file, not of the preset
       // A preset and its reference have settings of the run's engine only; a scene's environment is no settings.
       if (owner != "Scene" && is_engine(name) && name != drafted("/engine").get<std::string>()) continue;
+      if (name == "far" && drafted(child_of(pointer, name)).is_null()) continue;  // in place of receivers
       if (name == "states" && drafted(child_of(pointer, name)).empty()) continue; // of a mesh
       visit(property, child_of(pointer, name), owner, owner + "." + name);
     }
@@ -301,6 +302,9 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes) {
   open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8], "receivers": [
     {"distance_mm": 100, "picture": {"type": "ring"}}, {"distance_mm": 200, "picture": {"type": "disc"}}]}})");
   visit(schema["properties"]["inverse"], "/inverse", "Preset", "Preset.inverse");
+  open(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": {"facets": [8, 8],
+    "far": {"type": "rectangle", "lumens": 1e6}}})");
+  visit(schema["$defs"]["Inverse"]["properties"]["far"], "/inverse/far", "Inverse", "Inverse.far");
   open(R"({"engine": "environment", "scene": {"camera": {}}})");
   visit(schema["properties"]["environment"], "/environment", "Preset", "Preset.environment");
   open(
