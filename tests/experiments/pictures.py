@@ -16,6 +16,7 @@ ImageMagick puts pictures side by side; pictures of the window are taken under X
 """
 
 import argparse
+import importlib.util
 import json
 import os
 import shutil
@@ -251,6 +252,15 @@ def inverse_mirror(s, name):
     s.keep(name, [s.run("mirror", "inverse/mirror") / "image.png"])
 
 
+def colour(s, name, facets):
+    made = s.folder / name.removesuffix(".png")
+    script = ROOT / "tests" / "experiments" / "colour.py"
+    pictures = ["disc", "--steps", "2"] if s.small else ["letters-on-white", "pastel-letters"] if facets else []
+    fans = ["--facets", "--fans", "8"] if facets else []
+    s.call(sys.executable, script, *pictures, *fans, "--out", made)
+    s.keep(name, [made / "sheet.png"])
+
+
 def films(s, name):
     """Water, a torus and a jelly bunny, each at four moments of a film."""
     shown = [
@@ -410,6 +420,8 @@ MAKERS = {
     "inverse-mitsuba.jpg": inverse_mitsuba,
     "inverse-sundial.png": inverse_sundial,
     "inverse-mirror.png": inverse_mirror,
+    "colour-bound.png": partial(colour, facets=False),
+    "colour-facets.png": partial(colour, facets=True),
     "films.jpg": films,
     "environment-shaded.png": environment_shaded,
     "environment-turning.png": partial(environment_film, film="turning"),
@@ -426,13 +438,16 @@ MAKERS |= {f"session-{engine}.jpg": by_window_tests for engine in ("spectral", "
 MAKERS |= {f"window-{panel}.png": by_window_tests for panel in WINDOW}
 # What a picture needs beside the program and ImageMagick: other programs, modules of Python, and what is built.
 NEEDS = {"export-blender.jpg": ["blender"], "peers.jpg": ["povray"]}
+MODULES = {"colour-bound.png": ["scipy", "PIL"], "colour-facets.png": ["scipy", "PIL", "embreex"]}
 
 
 def lacks(name, small):
     programs = NEEDS.get(name, []) + ([] if small else ["montage", "convert"])
     if "window" in name or name.startswith("session-") or name == "tours/option-plan.jpg":
         programs += ["xvfb-run"]
-    return [program for program in programs if not shutil.which(program)]
+    return [program for program in programs if not shutil.which(program)] + [
+        module for module in MODULES.get(name, []) if not importlib.util.find_spec(module)
+    ]
 
 
 def main():
