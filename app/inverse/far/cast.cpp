@@ -153,7 +153,7 @@ CastIntensity cast_of(const preset::Preset& preset, const Layout& layout, const 
   const Settings& s = settings(preset);
   CastIntensity cast;
   cast.layout = layout;
-  cast.lumens = s.far->lumens.value_or(1000);
+  cast.lumens = s.far->lumens.value_or(default_lumens);
   cast.on_front = part_on_front(layout, s);
   const double a_facet = cast.lumens * cast.on_front / static_cast<double>(layout.facet_count());
   for (std::size_t c = 0; c < light.size(); ++c) {

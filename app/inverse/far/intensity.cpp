@@ -19,7 +19,6 @@ namespace {
 using Type = Intensity::Type;
 
 constexpr double rim = 0.25, most_rim_deg = 16, widest_deg = 80; // of the size, on both sides together; of half of all
-constexpr double default_lumens = 1000;
 
 Location own(const preset::Preset& preset) { return Location(preset.source) / "inverse" / "far"; }
 
@@ -182,10 +181,8 @@ Target far_target(const preset::Preset& preset, const Layout& layout, std::vecto
 }
 
 std::optional<double> wanted_candela(const preset::Preset& preset, const Layout& layout) {
-  const Intensity& i = *settings(preset).far;
-  if (i.candela || !i.lumens || i.type != Type::luminaire) return i.candela;
-  std::vector<std::string> notes;
-  return spread_of(preset, layout, notes).most;
+  std::vector<std::string> ignored;
+  return candela_of(*settings(preset).far, spread_of(preset, layout, ignored));
 }
 
 double part_on_front(const Layout& layout, const Settings& s) {

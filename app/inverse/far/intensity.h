@@ -9,6 +9,9 @@ namespace nephroid::inverse {
 /// The distance in parts of the object's longer side: its size is a two-hundredth of a degree there.
 inline constexpr double far_away = 1e4;
 
+/// Of a lamp that does not say how many it has.
+inline constexpr double default_lumens = 1000;
+
 /// The tangents of half the width and height of all directions that are looked at: the target with a rim about it.
 /// Throws bad_input for a luminaire's file that load_photometry() refuses, and for one that shines wider than 80
 /// degrees.

@@ -249,10 +249,11 @@ void Lens::see() {
 /// Aims more light at cells that lack some because a lamp's size spreads it, and less at those that have too much.
 void Lens::aim() {
   constexpr double most = 2; // a step's factor
-  const double all = std::accumulate(light_.begin(), light_.end(), 0.0);
+  const double received = std::accumulate(light_.begin(), light_.end(), 0.0);
   double sum = 0;
   for (std::size_t c = 0; c < aim_.size(); ++c)
-    sum += aim_[c] *= std::pow(std::clamp(all * target_[c] / std::max(light_[c], 1e-12 * all), 1 / most, most), share_);
+    sum += aim_[c] *=
+        std::pow(std::clamp(received * target_[c] / std::max(light_[c], 1e-12 * received), 1 / most, most), share_);
   for (double& cell : aim_) cell /= sum;
   wanted_ = wanted_of(aim_);
 }
